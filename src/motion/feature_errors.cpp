@@ -24,16 +24,17 @@ double deviationOf(std::vector<double>& lengths_px) {
   return median(lengths_px) / kMedianLength;
 }
 
-void cauchyWeights(double factor,
-                   const std::vector<double>& errors_px,
-                   std::vector<double>& weights) {
+double cauchyWeights(double factor,
+                     const std::vector<double>& errors_px,
+                     std::vector<double>& weights) {
   weights = errors_px;
-  double scale_px = 0.0;
-  if (factor > 0.0 && !weights.empty()) scale_px = factor * deviationOf(weights);
+  const double deviation_px = weights.empty() ? 0.0 : deviationOf(weights);
+  const double scale_px = factor * deviation_px;
   for (std::size_t i = 0; i < errors_px.size(); ++i) {
     const double ratio = scale_px > 0.0 ? errors_px[i] / scale_px : 0.0;
     weights[i] = 1.0 / (1.0 + ratio * ratio);
   }
+  return deviation_px;
 }
 
 double fixedLimit(double limit, double drop_share, std::vector<double>& errors) {

@@ -18,8 +18,7 @@ struct Measurements {
 };
 
 /// Of cauchyWeights(), for motions and the disparity bias: the scale of a Cauchy distribution in
-/// two dimensions, its median length over sqrt(3). Errors have such tails: in all clips, a tenth of
-/// them is longer than 3.2 to 5.2 medians (Cauchy 5.7, Gauss 1.8).
+/// two dimensions is its median length, 1.177 s, over sqrt(3).
 constexpr double kCauchyFactor = 0.68;
 
 /// Standard deviation, in each direction, of two-dimensional Gaussian residuals from the median of
@@ -35,10 +34,10 @@ double deviationOf(std::vector<double>& lengths_px);
 ///
 /// `errors_px` are the lengths e of two-dimensional residuals. s is their standard deviation in
 /// each direction, estimated from the median of e for Gaussian residuals. f is `factor`. All
-/// weights are 1 if s or f is 0.
-void cauchyWeights(double factor,
-                   const std::vector<double>& errors_px,
-                   std::vector<double>& weights);
+/// weights are 1 if s or f is 0. Returns s, 0 without residuals.
+double cauchyWeights(double factor,
+                     const std::vector<double>& errors_px,
+                     std::vector<double>& weights);
 
 /// Variance of weighted residuals r in each direction: the sum of (w r)^2 divided by the sum of
 /// w^2, corrected for the degrees of freedom of the fitted parameters. This is the middle term of

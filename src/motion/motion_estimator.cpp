@@ -62,6 +62,7 @@ struct Information {
   /// larger if neighbors are correlated.
   Matrix6d scatter = Matrix6d::Zero();
   double residual_variance = 0.0;  ///< from WeightedVariance [px^2]
+  double deviation_px = 0.0;       ///< of the residuals, from their median
 };
 
 /// Ratio of the covariance to that of independent errors: the variance per degree of freedom from
@@ -162,8 +163,10 @@ bool MotionEstimator::estimateCovariance(const Measurements& measured,
   if (!motion.valid) return false;
   const auto informationOf = [&](const FeatureSet& set, int estimated_parameters) {
     problem.select(set);
-    problem.weigh(robust_factor);
-    return collect(problem, measured, estimated_parameters);
+    const double deviation_px = problem.weigh(robust_factor);
+    Information information = collect(problem, measured, estimated_parameters);
+    information.deviation_px = deviation_px;
+    return information;
   };
   const Information one = informationOf(motion.rotation_inliers, 6);
   const Eigen::LDLT<Matrix6d> full(one.matrix);
@@ -175,7 +178,7 @@ bool MotionEstimator::estimateCovariance(const Measurements& measured,
   const Matrix6d both = correlation_inflation * variance / share * full.solve(Matrix6d::Identity());
   if (!both.allFinite()) return false;
   motion.covariance = both;
-  motion.flow_noise_px = std::sqrt(variance);
+  motion.flow_noise_px = one.deviation_px;
   if (!motion.has_translation_stage) return true;
 
   const Information two = informationOf(motion.translation_inliers, 3);

@@ -130,7 +130,7 @@ void ReprojectionProblem::select(const FeatureSet& set) {
   cell_ratio_ = 0.0;
 }
 
-void ReprojectionProblem::weigh(double robust_factor) {
+double ReprojectionProblem::weigh(double robust_factor) {
   errors(errors_px_);
   std::size_t kept = 0;
   const auto weightOf = [&](std::size_t i) -> double& {
@@ -140,11 +140,12 @@ void ReprojectionProblem::weigh(double robust_factor) {
     if (weightOf(i) > 0.0) errors_px_[kept++] = errors_px_[i];
   }
   errors_px_.resize(kept);
-  cauchyWeights(robust_factor, errors_px_, weights_);
+  const double deviation_px = cauchyWeights(robust_factor, errors_px_, weights_);
   auto next = weights_.begin();
   for (std::size_t i = 0; i < count_; ++i) {
     if (weightOf(i) > 0.0) weightOf(i) *= *next++;
   }
+  return deviation_px;
 }
 
 void ReprojectionProblem::squareWeights() {

@@ -84,7 +84,8 @@ class ReprojectionProblem {
   void select(const FeatureSet& set);
 
   /// Multiplies the weights by cauchyWeights() of the residuals at motion(), with the given factor.
-  void weigh(double robust_factor);
+  /// Returns their standard deviation.
+  double weigh(double robust_factor);
 
   /// Replaces the weights by their squares.
   void squareWeights();

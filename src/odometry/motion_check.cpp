@@ -23,7 +23,7 @@ constexpr double kMinShare = 0.15;
 /// A keyframe serves another pair if it has this many times kMinInliers.
 constexpr int kReserve = 2;
 /// The camera rests while the median flow is below this many times its noise.
-constexpr double kRest = 10.0;
+constexpr double kRest = 6.0;
 /// Share of the median depth. A shorter step changes the image little: its uncertainty is compared
 /// with the scene, or it would have none small enough at standstill.
 constexpr double kShortStep = 0.02;
