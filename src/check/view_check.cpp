@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "check/cells.h"
-#include "common/median.h"
+#include "features/image_noise.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
@@ -63,9 +63,10 @@ class ViewCheck : public PairCheck {
  private:
   /// Counts the cells with texture that stay as they are while others change.
   void compareWithLast(const CheckedPair& pair, const ImageGrid& grid) {
-    constexpr float kOverNoise = 2.0F;  // a change
-    constexpr float kTexture = 4.0F;    // over noise
-    constexpr double kChanging = 0.3;   // of the cells with texture
+    constexpr double kOfDifference = 1.13;  // its mean size over the deviation of one image
+    constexpr float kOverNoise = 2.0F;      // texture, and changes
+    constexpr double kStill = 0.25;         // change over texture
+    constexpr double kChanging = 0.3;       // of the cells with texture
     constexpr double kStill_px = 0.5;
     const cv::Mat& image = pair.images.left;
     const cv::Mat last = std::exchange(last_, image.clone());
@@ -74,27 +75,15 @@ class ViewCheck : public PairCheck {
     cv::absdiff(image, last, difference);
     const cv::Mat_<float> changes = cellMeans(difference, grid);
     const cv::Mat_<float> textures = detailOf(image, grid);
-    const float noise = noiseOf(changes, cellMeans(image, grid));
-    const cv::Mat textured = textures >= kTexture * noise;
-    const cv::Mat still = textured & (changes < kOverNoise * noise);
-    const int changing = cv::countNonZero(textured) - cv::countNonZero(still);
+    std::vector<int> buffer;
+    const auto noise = static_cast<float>(kOfDifference * std::sqrt(noiseVariance(image, buffer)));
+    const cv::Mat textured = textures >= kOverNoise * noise;
+    const cv::Mat still = textured & (changes < kStill * textures);
+    const int changing = cv::countNonZero(textured & (changes >= kOverNoise * noise));
     if (changing == 0 || changing < kChanging * cv::countNonZero(textured)) return;
     ++changing_pairs_;
     if (pair.result.hasMotion() && pair.flow_px < kStill_px) ++resting_pairs_;
     cv::add(still_, 1.0, still_, still);
-  }
-
-  /// Change of what stands still: of the cells that change least, but for clipped ones, which have
-  /// none.
-  static float noiseOf(const cv::Mat_<float>& changes, const cv::Mat_<float>& grays) {
-    constexpr float kDark = 8.0F;
-    constexpr float kBright = 247.0F;
-    constexpr float kLeast = 0.5F;  // of rounding
-    std::vector<float> exposed;
-    for (int cell = 0; cell < static_cast<int>(changes.total()); ++cell) {
-      if (grays(cell) > kDark && grays(cell) < kBright) exposed.push_back(changes(cell));
-    }
-    return exposed.empty() ? kLeast : std::max(quantile(exposed, 0.1), kLeast);
   }
 
   void addDisparities(RigReport& report) const {
