@@ -46,8 +46,7 @@ void InputCheck::report(const StereoCamera& camera,
                              sizeText(camera.width, camera.height) +
                              (rectifies ? ", raw images, rectified here" : ", rectified images");
   const std::string warning = left_info_ ? calibrationWarning(*left_info_, camera) : "";
-  report.add({"inputs", "camera_info", values, "", warning},
-             {{warning.empty() ? 0.0 : 1.1}, 0.0, 1.0});
+  report.add({"inputs", "camera_info", values, "", warning}, warning.empty() ? kIsGood : kToFix);
   const std::string baseline = baselineWarning(camera.baseline_m);
   if (baseline.empty()) return;
   report.add({"inputs",

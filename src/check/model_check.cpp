@@ -41,14 +41,6 @@ constexpr CauseText kCauseTexts[] = {
     {kLens, "radial distortion left over on the right", "(k1)", 1.0},
 };
 
-/// Median and its standard deviation.
-Estimate medianOf(std::vector<double> values) {
-  const double middle = median(values);
-  for (double& value : values) value = std::abs(value - middle);
-  const double scatter = kDeviationOverMedian * median(values);
-  return {middle, kMedianOverMean * scatter / std::sqrt(static_cast<double>(values.size()))};
-}
-
 /// What a shift in the middle of the image may be instead; empty if it is not.
 std::string orTurn(const StereoCamera& camera, const RigModel& model, RigCause cause) {
   const bool is_row = cause == kOffset;
@@ -132,10 +124,10 @@ void addRows(const StereoCamera& camera,
   for (std::size_t i = 0; i < grid.count(); ++i) {
     if (measured_px[i].size() < kLeastInCell) continue;
     const cv::Point2d center = grid.center(i);
-    const Estimate row = medianOf(measured_px[i]);
+    const double row_px = median(measured_px[i]);
     const Estimate left = overWindows(rests_px[i], windows, kLeastInCell);
-    table.rows.push_back({center.x, center.y, row.value, row.sigma, row.value - left.value});
-    rows_px.push_back(row.value);
+    table.rows.push_back({center.x, center.y, row_px, left.sigma, row_px - left.value});
+    rows_px.push_back(row_px);
     if (std::isfinite(left.sigma)) {
       squares_px2.push_back(left.value * left.value - left.sigma * left.sigma);
     }
@@ -248,8 +240,7 @@ ModelRest checkModel(const StereoCamera& camera,
   constexpr std::size_t kMostWindows = 100;
   const Windows fine(windows.duration_s(), pairs.size(), kMostWindows);
   const auto planes = problem.courses({kOffset, kRoll, kFocal}, fine);
-  // Of few flows, whose matches repeat themselves, further steps would follow the wrong ones.
-  const auto biases_px = problem.courses({kBias}, windows, 2)[0];
+  const auto biases_px = problem.courses({kBias}, windows)[0];
   addCourse("bias_time", "time_s,bias_px,sigma_px", biases_px, windows, report);
   const bool rows_last = addRowsOverTime(camera, planes, fine, rest.rows_px, report);
   const bool bias_lasts = addBias(camera, model, biases_px, applied_px, report);

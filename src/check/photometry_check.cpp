@@ -36,8 +36,8 @@ constexpr double kFixGain = 0.25;
 constexpr int kWhite = 255;
 constexpr int kBlack = kWhite / 50;
 
-cv::Rect around(double x_px, double y_px, int radius) {
-  return {cvRound(x_px) - radius, cvRound(y_px) - radius, 2 * radius + 1, 2 * radius + 1};
+cv::Rect around(const Eigen::Vector2d& px, int radius) {
+  return {cvRound(px.x()) - radius, cvRound(px.y()) - radius, 2 * radius + 1, 2 * radius + 1};
 }
 
 /// The same part of the world in both images.
@@ -54,10 +54,9 @@ std::vector<Patch> patchesOf(const CheckedPair& pair, int radius, std::size_t mo
   for (std::size_t i = 0; i < pair.features.size(); i += step) {
     if (pair.inliers[i] == 0) continue;
     const Correspondence& feature = pair.features[i];
-    const double x_px = feature.cur_px.x();
-    const double y_px = feature.cur_px.y();
-    const Patch patch = {around(x_px, y_px, radius),
-                         around(x_px - feature.disparity_px, y_px + rows_px, radius)};
+    const Eigen::Vector2d right_px =
+        feature.cur_px + Eigen::Vector2d(-feature.disparity_px, rows_px);
+    const Patch patch = {around(feature.cur_px, radius), around(right_px, radius)};
     if (((patch.left | patch.right) & image) == (patch.left | patch.right)) {
       patches.push_back(patch);
     }
@@ -74,10 +73,8 @@ std::vector<Eigen::Array3d> patchMeans(const CheckedPair& pair) {
     const cv::Mat left = pair.images.left(patch.left);
     const cv::Mat right = pair.images.right(patch.right);
     if (std::max(cv::norm(left, cv::NORM_INF), cv::norm(right, cv::NORM_INF)) >= kWhite) continue;
-    const cv::Point2d middle = 0.5 * cv::Point2d(patch.left.tl() + patch.left.br());
-    const cv::Point2d from_corner = middle - corner;
-    means.emplace_back(
-        cv::mean(left)[0], cv::mean(right)[0], from_corner.dot(from_corner) / corner.dot(corner));
+    const cv::Point2d at = 0.5 * cv::Point2d(patch.left.tl() + patch.left.br()) - corner;
+    means.emplace_back(cv::mean(left)[0], cv::mean(right)[0], at.dot(at) / corner.dot(corner));
   }
   return means;
 }
@@ -326,38 +323,27 @@ class PhotometryCheck : public PairCheck {
 
   void addLevels(const Windows& windows, RigReport& report) const {
     struct Property {
-      const char *subject, *unit, *cost, *remedy;
+      std::string subject, unit, cost, remedy;
       double acceptable;
       double Levels::*share;
     };
-    constexpr Property kProperties[] = {{"saturated pixels",
-                                         "%",
-                                         "no features there",
-                                         "reduce exposure, or meter on the lower part of the image",
-                                         0.1,
-                                         &Levels::saturated},
-                                        {"black pixels",
-                                         "%",
-                                         "no features there",
-                                         "increase exposure or gain, or light the scene",
-                                         0.1,
-                                         &Levels::dark},
-                                        {"noise",
-                                         "% of the contrast",
-                                         "positions get noisier",
-                                         "more light, or less gain",
-                                         0.15,
-                                         &Levels::noise_share}};
+    const std::string kEmpty = "no features there", kNoisy = "positions get noisier";
+    const Property kProperties[] = {
+        {"saturated pixels", "%", kEmpty, "reduce the exposure", 0.1, &Levels::saturated},
+        {"black pixels", "%", kEmpty, "add light, exposure or gain", 0.1, &Levels::dark},
+        {"noise",
+         "% of the contrast",
+         kNoisy,
+         "more light, less gain",
+         0.15,
+         &Levels::noise_share}};
     for (const auto& [side, levels] : {std::pair(", left", &Row::left), {", right", &Row::right}}) {
       for (const Property& p : kProperties) {
         std::vector<TimedValue> shares;
         for (const Row& row : rows_) shares.push_back({row.time_s, row.*levels.*p.share});
         const Estimate share = overWindows(shares, windows);
-        report.add({"photometry",
-                    p.subject + std::string(side),
-                    toText(share * 100.0, p.unit),
-                    p.cost,
-                    p.remedy},
+        const std::string measured = toText(share * 100.0, p.unit);
+        report.add({"photometry", p.subject + side, measured, p.cost, p.remedy},
                    {share, p.acceptable, 0.3});
       }
     }

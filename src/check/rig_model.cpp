@@ -45,15 +45,19 @@ struct Turn {
   double turn_by_shift;
 };
 
+/// How well a turn is known by the shape of its errors. A lens whose rows have the shape of a yaw
+/// has other shapes, too: of a third of it, on real cameras.
+double sigmaOfShape(RigCause turn, const RigModel& model) {
+  return std::hypot(model.sigmas[turn], model.values[kTwist] / 3.0);
+}
+
 /// Whether the shape of the errors is that of the turn which makes the value in the middle, or
-/// none: by the ratio of their likelihoods. A lens whose rows have the shape of a yaw has other
-/// shapes, too: of a third of it, on real cameras.
-TurnOrShift decide(const Turn& turn, const RigCauses& values, const RigCauses& sigmas) {
-  const double shape = values[turn.turn];
-  const double by_shift = turn.turn_by_shift * values[turn.shift];
-  const double of_lens = values[kTwist] / 3.0;
-  const double sigma = std::hypot(sigmas[turn.turn], of_lens);
-  const double likelier = (std::pow(shape, 2) - std::pow(shape - by_shift, 2)) / std::pow(sigma, 2);
+/// none: by the ratio of their likelihoods.
+TurnOrShift decide(const Turn& turn, const RigModel& model) {
+  const double shape = model.values[turn.turn];
+  const double by_shift = turn.turn_by_shift * model.values[turn.shift];
+  const double likelier = (std::pow(shape, 2) - std::pow(shape - by_shift, 2)) /
+                          std::pow(sigmaOfShape(turn.turn, model), 2);
   constexpr double kLikelier = 4.0;  // two standard deviations
   if (likelier > kLikelier) return TurnOrShift::kTurn;
   return likelier < -kLikelier ? TurnOrShift::kShift : TurnOrShift::kEither;
@@ -77,13 +81,15 @@ class RigFit {
     turns_[1] = {{kYaw, kBias, -1.0 / camera.fx}, &model.horizontal};
   }
 
-  /// Most recordings show no principal point of both cameras, which would only blur the others.
+  /// Most recordings show no principal point of both cameras, which would only blur the others; and
+  /// few have a wrong one. 7 sigma of eight parts of the image are 0.02 % of Student's t.
   void leaveOutCenter() {
+    constexpr double kSigmas = 7.0;
     fit();
     for (const RigCause cause : {kBothX, kBothY}) {
       const double size = std::abs(model_.values[cause]);
       const double costs_px = kAcceptable * kFixScale * camera_.fx;
-      if (size < 3.0 * model_.sigmas[cause] + costs_px) problem_.leaveOut(cause);
+      if (size < kSigmas * model_.sigmas[cause] + costs_px) problem_.leaveOut(cause);
     }
   }
 
@@ -91,7 +97,7 @@ class RigFit {
     fit();
     first_sigmas_ = model_.sigmas;
     first_sigmas_[kBothLenses] = 0.0;  // raw images look like several small errors
-    for (const auto& [turn, result] : turns_) *result = decide(turn, model_.values, model_.sigmas);
+    for (const auto& [turn, result] : turns_) *result = decide(turn, model_);
     for (const auto& [turn, result] : turns_) {
       if (*result != TurnOrShift::kTurn) continue;
       problem_.values[turn.turn] = turn.turn_by_shift * problem_.values[turn.shift];
@@ -136,7 +142,9 @@ class RigFit {
     }
     for (const auto& [turn, result] : turns_) {
       if (*result == TurnOrShift::kTurn) continue;
-      if (!model_.exceeds(1.0, turn.turn)) values[turn.turn] = 0.0;
+      const Estimate shape = {values[turn.turn], sigmaOfShape(turn.turn, model_)};
+      const double unit = model_.severityOf(model_.effects_px[turn.turn]);
+      if (shape.certain() * unit < 1.0) values[turn.turn] = 0.0;
       const bool may_be_turn = *result == TurnOrShift::kEither && values[turn.turn] == 0.0;
       if (turn.turn == kPitch) continue;  // both are as good
       // Where it matters which of the two it is, a wrong one may be worse than neither.

@@ -21,12 +21,8 @@ constexpr double kRobust = 1.5;
 
 constexpr auto kCauses = static_cast<int>(kRigCauses);
 
-double square(double value) {
-  return value * value;
-}
-
 double weightOf(double sigmas) {
-  return 1.0 / (1.0 + square(sigmas / kRobust));
+  return 1.0 / (1.0 + std::pow(sigmas / kRobust, 2));
 }
 
 Normal sumOf(const std::vector<Normal>& parts) {
@@ -39,10 +35,10 @@ double gainBy(const CauseVector& change, const Normal& sum) {
          change.dot(sum.topLeftCorner<kCauses, kCauses>() * change);
 }
 
-/// What a motion leaves of a flow.
+/// What the error of a motion leaves of a flow.
 Eigen::Vector2d leftOf(const Eigen::Matrix<double, 2, 6 + kCauses + 1>& flow,
-                       const Vector6d& motion) {
-  return flow.rightCols<1>() - flow.leftCols<6>() * motion;
+                       const MotionError& error) {
+  return flow.rightCols<1>() - flow.leftCols<6>() * error.rightCols<1>();
 }
 
 /// Sums over the flows of a pair, which share the error of its motion: of J^T J, and their number.
@@ -52,14 +48,13 @@ struct FlowSums {
   int count = 0;
 
   /// Without the error of the motion, which is found. False if too few determine it.
-  bool eliminate(Vector6d& motion, Normal& eliminated) const {
+  bool eliminate(MotionError& error, Normal& eliminated) const {
     constexpr int kLeast = 12;  // of twice as many residuals, a fourth for the motion
     if (count < kLeast) return false;
     const Eigen::Matrix<double, 6, kCauses + 1> mixed = matrix.topRightCorner<6, kCauses + 1>();
-    const Eigen::Matrix<double, 6, kCauses + 1> solved =
-        matrix.topLeftCorner<6, 6>().ldlt().solve(mixed);
+    const MotionError solved = matrix.topLeftCorner<6, 6>().ldlt().solve(mixed);
     if (!solved.allFinite()) return false;
-    motion = solved.rightCols<1>();
+    error = solved;
     eliminated = matrix.bottomRightCorner<kCauses + 1, kCauses + 1>() - mixed.transpose() * solved;
     return true;
   }
@@ -73,18 +68,24 @@ RigProblem::RigProblem(const StereoCamera& camera,
     : camera_(camera),
       pairs_(pairs),
       regions_grid_(camera.width, camera.height, kRegionColumns, kRegionRows),
-      motions_(pairs.size(), Vector6d::Zero()),
+      motion_errors_(pairs.size(), MotionError::Zero()),
       rows_(windows.count()),
       flows_(windows.count()) {
   for (const PairSamples& pair : pairs) window_of_.push_back(windows.of(pair.time_s));
 }
 
-void RigProblem::solve(int iterations) {
-  for (int i = 0; i < iterations; ++i) {
-    linearize();
-    CauseVector::Map(values.data()) += changeBy(total());
-  }
+void RigProblem::solve() {
+  constexpr int kMostSteps = 20;
+  constexpr double kLeastGain = 0.01;  // a tenth of a standard deviation
   linearize();
+  double gain = INFINITY;
+  for (int i = 0; i < kMostSteps && gain > kLeastGain; ++i) {
+    const Normal sum = total();
+    const CauseVector change = changeBy(sum);
+    gain = gainBy(change, sum);
+    CauseVector::Map(values.data()) += change;
+    linearize();
+  }
 }
 
 RigCauses RigProblem::sigmas() const {
@@ -101,7 +102,7 @@ RigCauses RigProblem::sigmas() const {
   constexpr double kParts = 80.0;
   double count = 0.0;
   for (const PairSamples& pair : pairs_) count += static_cast<double>(pair.samples.size());
-  const double factor = 1.0 + count / kParts * square(kMatching_px / row_noise_px_);
+  const double factor = 1.0 + count / kParts * std::pow(kMatching_px / row_noise_px_, 2);
   const Eigen::MatrixXd independent =
       factor * restricted(total()).topLeftCorner<kCauses, kCauses>().inverse();
   RigCauses sigmas;
@@ -113,8 +114,7 @@ RigCauses RigProblem::sigmas() const {
 }
 
 std::vector<std::vector<Estimate>> RigProblem::courses(const std::vector<RigCause>& causes,
-                                                       const Windows& windows,
-                                                       int iterations) const {
+                                                       const Windows& windows) const {
   constexpr double kKnown = 0.1;  // of the prior
   std::vector<std::vector<PairSamples>> parts(windows.count());
   for (const PairSamples& pair : pairs_) parts[windows.of(pair.time_s)].push_back(pair);
@@ -125,7 +125,7 @@ std::vector<std::vector<Estimate>> RigProblem::courses(const std::vector<RigCaus
     alone.is_of_turn = is_of_turn;
     alone.is_left_out_.fill(true);
     for (const RigCause cause : causes) alone.is_left_out_[cause] = false;
-    alone.solve(iterations);
+    alone.solve();
     const RigCauses sigmas = alone.sigmas();
     for (std::size_t k = 0; k < causes.size(); ++k) {
       const RigCause cause = causes[k];
@@ -165,6 +165,12 @@ void RigProblem::leaveOut(std::size_t cause) {
 
 /// Sums of squares at the values, and the noise of what is left there, for the next time.
 void RigProblem::linearize() {
+  const CauseVector change =
+      CauseVector::Map(values.data()) - CauseVector::Map(linearized_at_.data());
+  for (MotionError& error : motion_errors_) {
+    error.rightCols<1>() -= error.leftCols<kCauses>() * change;
+  }
+  linearized_at_ = values;
   const RigDisplacement displacement(camera_, causesOf(values));
   std::vector<std::pair<Eigen::Index, RigDisplacement>> steps;
   for (std::size_t k = 0; k < kRigCauses; ++k) {
@@ -203,7 +209,7 @@ void RigProblem::linearize() {
     }
     addFlows(p, residuals);
     for (const auto& [residual, region] : residuals) {
-      flow_errors.push_back(std::abs(leftOf(residual, motions_[p])[0]));
+      flow_errors.push_back(std::abs(leftOf(residual, motion_errors_[p])[0]));
     }
   }
   if (!row_errors_px.empty()) {
@@ -245,19 +251,19 @@ void RigProblem::addFlows(std::size_t pair,
                           const std::vector<std::pair<FlowResidual, std::size_t>>& residuals) {
   std::array<FlowSums, kRegions> parts;
   for (const auto& [residual, region] : residuals) {
-    const double weight = weightOf(leftOf(residual, motions_[pair]).norm() / std::sqrt(2.0));
+    const double weight = weightOf(leftOf(residual, motion_errors_[pair]).norm() / std::sqrt(2.0));
     parts[region].matrix += weight * residual.transpose() * residual;
     ++parts[region].count;
   }
   FlowSums all;
   for (const FlowSums& part : parts) all = {all.matrix + part.matrix, all.count + part.count};
   Normal eliminated;
-  if (!all.eliminate(motions_[pair], eliminated)) return;
+  if (!all.eliminate(motion_errors_[pair], eliminated)) return;
   flows_[window_of_[pair]] += eliminated;
   for (std::size_t r = 0; r < kRegions; ++r) {
     const FlowSums rest = {all.matrix - parts[r].matrix, all.count - parts[r].count};
-    Vector6d motion;
-    if (rest.eliminate(motion, eliminated)) without_[r] += eliminated;
+    MotionError error;
+    if (rest.eliminate(error, eliminated)) without_[r] += eliminated;
   }
 }
 
@@ -265,8 +271,8 @@ Normal RigProblem::prior() const {
   Normal normal = Normal::Zero();
   for (std::size_t k = 0; k < kRigCauses; ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    normal(i, i) = 1.0 / square(kPriorSigmas[k]);
-    normal(i, kCauses) = normal(kCauses, i) = -values[k] / square(kPriorSigmas[k]);
+    normal(i, i) = 1.0 / std::pow(kPriorSigmas[k], 2);
+    normal(i, kCauses) = normal(kCauses, i) = -values[k] / std::pow(kPriorSigmas[k], 2);
   }
   return normal;
 }

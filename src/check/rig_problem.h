@@ -24,6 +24,10 @@ using CauseVector = Eigen::Matrix<double, kRigCauses, 1>;
 /// Sum of w [J r]^T [J r] over residuals r with the derivatives J by the values, up to the sign.
 using Normal = Eigen::Matrix<double, kRigCauses + 1, kRigCauses + 1>;
 
+/// Error of a pair's motion that fits its flows: minus the derivatives by the values, and the
+/// error.
+using MotionError = Eigen::Matrix<double, 6, kRigCauses + 1>;
+
 /// The least squares of a rig: rows, and flows with the error of each pair's motion eliminated,
 /// with Cauchy weights, by Gauss and Newton.
 class RigProblem {
@@ -32,8 +36,8 @@ class RigProblem {
              const std::vector<PairSamples>& pairs,
              const Windows& windows);
 
-  /// Solves for the values that are not left out; those of a bad calibration need two iterations.
-  void solve(int iterations = 4);
+  /// Solves for the values that are not left out.
+  void solve();
 
   /// Of values, at the solution: the largest ones of independent errors, of the scatter without
   /// each window of time, and without each part of the image, which has errors that the causes do
@@ -43,8 +47,7 @@ class RigProblem {
   /// Of each of some causes the values by each window alone, at the other values; of infinite
   /// deviation if it does not show it.
   std::vector<std::vector<Estimate>> courses(const std::vector<RigCause>& causes,
-                                             const Windows& windows,
-                                             int iterations = 4) const;
+                                             const Windows& windows) const;
 
   /// See RigModel: of rows and flows. Values that are zero in `corrected` are not corrected.
   std::pair<Estimate, Estimate> gains(const RigCauses& corrected) const;
@@ -90,9 +93,10 @@ class RigProblem {
   ImageGrid regions_grid_;
   std::array<bool, kRigCauses> is_left_out_ = {};  // these are zero
   std::vector<std::size_t> window_of_;             // of a pair
-  std::vector<Vector6d> motions_;                  // errors, for each pair
-  std::vector<Normal> rows_, flows_;               // for each window
-  std::array<Normal, kRegions> without_;           // each part of the image: flows, minus its rows
+  std::vector<MotionError> motion_errors_;
+  RigCauses linearized_at_ = {};
+  std::vector<Normal> rows_, flows_;      // for each window
+  std::array<Normal, kRegions> without_;  // each part of the image: flows, minus its rows
   double row_noise_px_ = 1.0;
   double flow_noise_ = 1.0;  // over that of the odometry
 };

@@ -41,7 +41,8 @@ struct Graded {
 };
 
 /// What has no size: it is there.
-constexpr Graded kToFix = {{100.0}, 0.0, 1.0}, kToLookAt = {{0.9}, 0.0, 1.0};
+constexpr Graded kToFix = {{100.0}, 0.0, 1.0}, kToLookAt = {{0.9}, 0.0, 1.0},
+                 kIsGood = {{0.0}, 0.0, 1.0};
 
 struct RigReport {
   std::string title;    ///< what was checked
@@ -60,11 +61,9 @@ struct RigReport {
   /// Puts what needs fixing first, causes before symptoms, and of those the most severe.
   void sort();
 
-  // Of sorted findings:
-
   bool needsFix() const;
 
-  /// What needs fixing first, and how, as one line of text.
+  /// What needs fixing first, and how, as one line of text. Findings are sorted.
   std::string advice() const;
 };
 

@@ -21,27 +21,30 @@ cv::Point2f shiftOf(std::size_t sample) {
   return {0.0F, static_cast<float>(part - std::floor(part) - 0.5)};
 }
 
+/// Derivatives of the pixel of a point by it.
+Eigen::Matrix<double, 2, 3> pixelByPoint(const StereoCamera& camera, const Eigen::Vector3d& point) {
+  Eigen::Matrix<double, 2, 3> by_point;
+  by_point << camera.fx, 0.0, -camera.fx * point.x() / point.z(), 0.0, camera.fy,
+      -camera.fy * point.y() / point.z();
+  return by_point / point.z();
+}
+
 }  // namespace
 
 void measureFlow(const StereoCamera& camera,
                  const OdometryResult& result,
                  const Correspondence& feature,
                  RigSample& sample) {
-  const double interval_s = toSeconds(result.stamp_ns - result.keyframe_stamp_ns);
-  sample.velocity_pxps = (feature.cur_px - feature.keyframe_px) / interval_s;  // if it is far
   constexpr double kLeast_px = 1.0;  // of a disparity, of which errors are parts
   const UncertainTransform& motion = result.T_keyframe_cur;
   const double applied_px = result.disparity_bias.applied_px;
   const double from_infinity_px = feature.disparity_px + applied_px - camera.disparityAtInfinity();
-  if (from_infinity_px < kLeast_px) return;
-  const double depth_m = camera.fx * camera.baseline_m / from_infinity_px;
+  const double depth_m = camera.fx * camera.baseline_m / std::max(from_infinity_px, kLeast_px);
   const Eigen::Vector3d ray = camera.ray(feature.cur_px);
-  const Eigen::Vector3d point = motion.T * (depth_m * ray);
-  if (!isUsableDepth(point.z())) return;
-  Eigen::Matrix<double, 2, 3> by_point;
-  by_point << camera.fx, 0.0, -camera.fx * point.x() / point.z(), 0.0, camera.fy,
-      -camera.fy * point.y() / point.z();
-  by_point /= point.z();
+  sample.point = depth_m * ray;
+  const Eigen::Vector3d point = motion.T * sample.point;
+  if (from_infinity_px < kLeast_px || !isUsableDepth(point.z())) return;
+  const Eigen::Matrix<double, 2, 3> by_point = pixelByPoint(camera, point);
   sample.flow_by_motion << by_point, -by_point * skew(point);
   sample.flow_by_disparity = by_point * (motion.T.linear() * ray) * (-depth_m / from_infinity_px);
   // Both lenses move the feature in the keyframe, its ray, and its disparity.
@@ -60,14 +63,17 @@ void measureFlow(const StereoCamera& camera,
       by_ray * Eigen::Vector2d(1.0 / camera.fx, 1.0 / camera.fy).asDiagonal();
   sample.flow_px =
       feature.keyframe_px - camera.project(point) + applied_px * sample.flow_by_disparity;
-  sample.velocity_pxps *= point.z() / depth_m;
 }
 
 void RigSampler::observe(const CheckedPair& pair) {
   // Over a step of the clock, the interval from the keyframe is not that of the stamps.
   const OdometryResult& result = pair.result;
   if (result.clock_set_ns != result.prev_clock_set_ns) stepped_ns_ = result.keyframe_stamp_ns;
-  if (!pair.has_moved || result.keyframe_stamp_ns == stepped_ns_) return;
+  if (!result.hasMotion() || result.keyframe_stamp_ns == stepped_ns_) return;
+  const double interval_s = toSeconds(result.stamp_ns - result.keyframe_stamp_ns);
+  const Vector6d twist = logMotion(result.T_keyframe_cur.T) / interval_s;
+  if (result.keyframe_stamp_ns == last_ns_) setVelocities(pair.camera, 0.5 * (last_twist_ + twist));
+  if (!pair.has_moved) return;
   PairSamples samples = {pair.time_s, result.flow_noise_px, {}};
   const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPerPair);
   for (std::size_t i = 0; i < pair.features.size(); i += step) {
@@ -83,6 +89,17 @@ void RigSampler::observe(const CheckedPair& pair) {
     samples.samples.push_back(sample);
   }
   pairs_.push_back(std::move(samples));
+  last_ns_ = result.stamp_ns;
+  last_twist_ = twist;
+  setVelocities(pair.camera, twist);
+}
+
+void RigSampler::setVelocities(const StereoCamera& camera, const Vector6d& twist) {
+  const Eigen::Vector3d right(camera.baseline_m, 0.0, 0.0);
+  for (RigSample& sample : pairs_.back().samples) {
+    const Eigen::Vector3d velocity_mps = sample.point.cross(twist.tail<3>()) - twist.head<3>();
+    sample.velocity_pxps = pixelByPoint(camera, sample.point - right) * velocity_mps;
+  }
 }
 
 void RigSampler::measureRow(const CheckedPair& pair,

@@ -16,15 +16,14 @@ constexpr std::size_t kPairsPerWindow = 5;
 }  // namespace
 
 std::string toText(const Estimate& estimate, const std::string& unit) {
-  const auto text = [&](double value, int digits) {
-    return std::isfinite(value) ? fixedText(value, digits) : std::string("unknown");
-  };
   int digits = 2;
   if (estimate.sigma > 0.0 && std::isfinite(estimate.sigma)) {
     digits = std::clamp(static_cast<int>(std::ceil(-std::log10(estimate.sigma))) + 1, 0, 6);
   }
-  return text(estimate.value, digits) + " +- " + text(estimate.sigma, digits) +
-         (unit.empty() ? "" : " " + unit);
+  const auto text = [&](double value) {
+    return std::isfinite(value) ? fixedText(value, digits) : std::string("unknown");
+  };
+  return text(estimate.value) + " +- " + text(estimate.sigma) + (unit.empty() ? "" : " " + unit);
 }
 
 Windows::Windows(double duration_s, std::size_t pairs, std::size_t wanted)
@@ -69,11 +68,12 @@ Estimate scatterBeyondNoise(const std::vector<Estimate>& values) {
     sum_w2 += w * w;
   }
   if (count < 2.0) return {0.0, std::numeric_limits<double>::infinity()};
-  const double squares = sum_xx - sum_x * sum_x / sum;
   const double scale = sum - sum_w2 / sum;
-  const double scatter = std::sqrt(std::max(squares - (count - 1.0), 0.0) / scale);
-  // That of a sum of squares of normal values.
-  const double sigma2 = std::sqrt(2.0 * (count - 1.0)) / scale;
+  const double degrees = count - 1.0;
+  const double beyond = std::max(sum_xx - sum_x * sum_x / sum - degrees, 0.0);
+  const double scatter = std::sqrt(beyond / scale);
+  // Variance of the noncentral chi-squared distribution.
+  const double sigma2 = std::sqrt(2.0 * degrees + 4.0 * beyond) / scale;
   return {scatter, sigma2 / (2.0 * std::max(scatter, std::sqrt(sigma2)))};
 }
 

@@ -57,8 +57,8 @@ Estimate overWindows(const std::vector<TimedValue>& values,
                      const Windows& windows,
                      std::size_t least = 1);
 
-/// The standard deviation of values beyond their own (DerSimonian and Laird 1986), and its standard
-/// deviation; {0, infinity} for less than two finite ones.
+/// The standard deviation of these values beyond their own (DerSimonian and Laird 1986), and its
+/// standard deviation; {0, infinity} for less than two finite ones.
 Estimate scatterBeyondNoise(const std::vector<Estimate>& values);
 
 /// Standard deviations of several values from estimates that each leave out one window (jackknife,

@@ -59,8 +59,9 @@ PairSamples pairBy(const StereoCamera& camera,
     sample.x_right = (feature.cur_px.x() - disparity_px - camera.cx_right) / camera.fx;
     sample.y = (feature.cur_px.y() - camera.cy) / camera.fy;
     feature.keyframe_px = camera.project(T * point);
+    const Eigen::Vector3d right(camera.baseline_m, 0.0, 0.0);
     sample.velocity_pxps =
-        (feature.cur_px - feature.keyframe_px) * (T * point).z() / point.z() / kPeriod_s;
+        (camera.project(point - right) - camera.project(T * point - right)) / kPeriod_s;
     const Eigen::Vector2d displaced_px = displacement.of(sample);
     feature.keyframe_px += kNoise_px * Eigen::Vector2d(normal(generator), normal(generator));
     feature.disparity_px = disparity_px - displaced_px.x() + kNoise_px * normal(generator);
@@ -213,6 +214,7 @@ TEST(WindowsTest, ScatterIsWhatTheUncertaintyDoesNotExplain) {
   EXPECT_LT(scatterBeyondNoise(constant).value, 0.1);
   const std::vector<Estimate> moving = {{2.0, 0.1}, {-2.0, 0.1}, {2.0, 0.1}, {-2.0, 0.1}};
   EXPECT_NEAR(scatterBeyondNoise(moving).value, std::sqrt(16.0 / 3.0), 0.01);
+  EXPECT_NEAR(scatterBeyondNoise(moving).sigma, 0.1 / std::sqrt(3.0), 0.001);
   EXPECT_TRUE(std::isinf(scatterBeyondNoise({{1.0, 0.1}}).sigma));
 }
 
