@@ -20,11 +20,6 @@ constexpr int kStep = 5;
 /// Fewer show what one camera sees past an edge, and the other one does not.
 constexpr int kLeastPairs = 5 * kStep;
 
-/// 255 where a cell is not saturated.
-cv::Mat exposedOf(const cv::Mat& image, const ImageGrid& grid) {
-  return cellMeans(image == 255, grid) < 0.1 * 255.0;
-}
-
 /// How much stronger edges between blocks of eight columns are than those elsewhere, as a share.
 double blockEdges(const cv::Mat& image) {
   constexpr int kBlock = 8;
@@ -46,7 +41,8 @@ class DetailCheck : public PairCheck {
     width_ = pair.images.left.cols;
     const ImageGrid grid = mapOf(width_, pair.images.left.rows);
     const cv::Mat* images[] = {&pair.images.left, &pair.images.right};
-    const cv::Mat exposed = exposedOf(*images[0], grid) & exposedOf(*images[1], grid);
+    const cv::Mat saturated = (*images[0] == 255) | (*images[1] == 255);
+    const cv::Mat exposed = cellMeans(saturated, grid) < 0.1 * 255.0;
     for (int side = 0; side < 2; ++side) {
       blocks_[side].push_back({pair.time_s, blockEdges(*images[side])});
       cv::Mat& sum = detail_[side];

@@ -46,7 +46,8 @@ void InputCheck::report(const StereoCamera& camera,
                              sizeText(camera.width, camera.height) +
                              (rectifies ? ", raw images, rectified here" : ", rectified images");
   const std::string warning = left_info_ ? calibrationWarning(*left_info_, camera) : "";
-  report.add({"inputs", "camera_info", values, "", warning}, warning.empty() ? kIsGood : kToFix);
+  report.add({"inputs", "camera_info", values, "", warning},
+             {{warning.empty() ? 0.0 : 1.1}, 0.0, 1.0});  // after what is measured
   const std::string baseline = baselineWarning(camera.baseline_m);
   if (baseline.empty()) return;
   report.add({"inputs",

@@ -185,14 +185,18 @@ bool addRowsOverTime(const StereoCamera& camera,
   return motion_px.value < std::max(kAcceptable * kFixRows_px, 0.5 * rows_px);
 }
 
-/// Returns whether a calibration can describe the bias: not if it moves.
+/// Returns whether a calibration can describe the bias: not if it moves by half of its mean.
 bool addBias(const StereoCamera& camera,
              const RigModel& model,
              const std::vector<Estimate>& course_px,
              double applied_px,
              RigReport& report) {
   const double typical_px = model.typical_disparity_px;
-  const Estimate bias_px = model.value(kBias);
+  const Estimate motion_px = scatterBeyondNoise(course_px);
+  Estimate bias_px = model.value(kBias);
+  const bool lasts =
+      motion_px.value < std::max(kFixScale * typical_px, 0.5 * std::abs(bias_px.value));
+  if (!lasts) bias_px.sigma = std::hypot(bias_px.sigma, motion_px.value);
   const double at_10_m = 10.0 * bias_px.value / (camera.fx * camera.baseline_m);
   report.add({"disparities",
               "bias of the disparities",
@@ -203,14 +207,13 @@ bool addBias(const StereoCamera& camera,
                   " px; the odometry corrects " + fixedText(applied_px, 2) + " px of it",
               kCalibrate},
              {bias_px * (1.0 / typical_px), kAcceptable * kFixScale, kFixScale});
-  const Estimate motion_px = scatterBeyondNoise(course_px);
   report.add({"disparities",
               "bias over time",
               "moves by " + fixedText(motion_px.value, 2) + " px (rms)",
               "the scale changes while the rig bends",
               "mount both cameras on one stiff bar"},
              {motion_px * (1.0 / typical_px), kAcceptable * kFixScale, kFixScale});
-  return motion_px.value < std::max(kFixScale * typical_px, 0.5 * std::abs(bias_px.value));
+  return lasts;
 }
 
 }  // namespace

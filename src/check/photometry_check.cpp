@@ -248,8 +248,7 @@ class PhotometryCheck : public PairCheck {
   }
 
   static void compareSharpness(const CheckedPair& pair, Row& row) {
-    constexpr std::size_t kPatches = 40;
-    constexpr std::size_t kLeastPatches = 5;
+    constexpr std::size_t kPatches = 40, kLeastPatches = 5;
     const std::vector<Patch> patches = patchesOf(pair, kSharpnessPatch, kPatches);
     if (patches.size() < kLeastPatches) return;
     row.blur_px2 =

@@ -81,8 +81,8 @@ class RigFit {
     turns_[1] = {{kYaw, kBias, -1.0 / camera.fx}, &model.horizontal};
   }
 
-  /// Most recordings show no principal point of both cameras, which would only blur the others; and
-  /// few have a wrong one. 7 sigma of eight parts of the image are 0.02 % of Student's t.
+  /// Most recordings show no principal point of both cameras, which would only blur the others, and
+  /// few rigs have a wrong one. With eight parts of the image, 0.02 % exceed 7 sigma by chance.
   void leaveOutCenter() {
     constexpr double kSigmas = 7.0;
     fit();
@@ -144,7 +144,7 @@ class RigFit {
       if (*result == TurnOrShift::kTurn) continue;
       const Estimate shape = {values[turn.turn], sigmaOfShape(turn.turn, model_)};
       const double unit = model_.severityOf(model_.effects_px[turn.turn]);
-      if (shape.certain() * unit < 1.0) values[turn.turn] = 0.0;
+      if (!(shape.certain() * unit > 1.0)) values[turn.turn] = 0.0;
       const bool may_be_turn = *result == TurnOrShift::kEither && values[turn.turn] == 0.0;
       if (turn.turn == kPitch) continue;  // both are as good
       // Where it matters which of the two it is, a wrong one may be worse than neither.

@@ -75,11 +75,11 @@ RigProblem::RigProblem(const StereoCamera& camera,
 }
 
 void RigProblem::solve() {
-  constexpr int kMostSteps = 20;
-  constexpr double kLeastGain = 0.01;  // a tenth of a standard deviation
+  constexpr int kLeastSteps = 2, kMostSteps = 20;  // the first one does not know the noise
+  constexpr double kLeastGain = 0.01;              // a tenth of a standard deviation
   linearize();
   double gain = INFINITY;
-  for (int i = 0; i < kMostSteps && gain > kLeastGain; ++i) {
+  for (int i = 0; i < kMostSteps && (i < kLeastSteps || gain > kLeastGain); ++i) {
     const Normal sum = total();
     const CauseVector change = changeBy(sum);
     gain = gainBy(change, sum);
@@ -160,7 +160,7 @@ RigCauses RigProblem::causesOf(const RigCauses& some_values) const {
 
 void RigProblem::leaveOut(std::size_t cause) {
   is_left_out_[cause] = true;
-  values[cause] = 0.0;
+  values[cause] = linearized_at_[cause] = 0.0;  // in the middle, a turn takes its place
 }
 
 /// Sums of squares at the values, and the noise of what is left there, for the next time.

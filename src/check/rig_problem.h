@@ -24,8 +24,7 @@ using CauseVector = Eigen::Matrix<double, kRigCauses, 1>;
 /// Sum of w [J r]^T [J r] over residuals r with the derivatives J by the values, up to the sign.
 using Normal = Eigen::Matrix<double, kRigCauses + 1, kRigCauses + 1>;
 
-/// Error of a pair's motion that fits its flows: minus the derivatives by the values, and the
-/// error.
+/// [-de/dvalues, e] of the motion error e that fits the flows of a pair best.
 using MotionError = Eigen::Matrix<double, 6, kRigCauses + 1>;
 
 /// The least squares of a rig: rows, and flows with the error of each pair's motion eliminated,

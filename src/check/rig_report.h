@@ -41,8 +41,7 @@ struct Graded {
 };
 
 /// What has no size: it is there.
-constexpr Graded kToFix = {{100.0}, 0.0, 1.0}, kToLookAt = {{0.9}, 0.0, 1.0},
-                 kIsGood = {{0.0}, 0.0, 1.0};
+constexpr Graded kToFix = {{100.0}, 0.0, 1.0}, kToLookAt = {{0.9}, 0.0, 1.0};
 
 struct RigReport {
   std::string title;    ///< what was checked
@@ -63,7 +62,7 @@ struct RigReport {
 
   bool needsFix() const;
 
-  /// What needs fixing first, and how, as one line of text. Findings are sorted.
+  /// What needs fixing first, and how, as one line of text. Call sort() first.
   std::string advice() const;
 };
 

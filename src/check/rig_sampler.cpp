@@ -66,13 +66,13 @@ void measureFlow(const StereoCamera& camera,
 }
 
 void RigSampler::observe(const CheckedPair& pair) {
-  // Over a step of the clock, the interval from the keyframe is not that of the stamps.
   const OdometryResult& result = pair.result;
-  if (result.clock_set_ns != result.prev_clock_set_ns) stepped_ns_ = result.keyframe_stamp_ns;
-  if (!result.hasMotion() || result.keyframe_stamp_ns == stepped_ns_) return;
-  const double interval_s = toSeconds(result.stamp_ns - result.keyframe_stamp_ns);
-  const Vector6d twist = logMotion(result.T_keyframe_cur.T) / interval_s;
-  if (result.keyframe_stamp_ns == last_ns_) setVelocities(pair.camera, 0.5 * (last_twist_ + twist));
+  if (!result.hasMotion()) return;
+  const double dt_s = result.dt_s();
+  const Vector6d twist = logMotion(result.T_prev_cur) / dt_s;
+  if (result.prev_stamp_ns == last_ns_) {  // a parabola through three poses
+    setVelocities(pair.camera, (dt_s * last_twist_ + last_dt_s_ * twist) / (dt_s + last_dt_s_));
+  }
   if (!pair.has_moved) return;
   PairSamples samples = {pair.time_s, result.flow_noise_px, {}};
   const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPerPair);
@@ -90,6 +90,7 @@ void RigSampler::observe(const CheckedPair& pair) {
   }
   pairs_.push_back(std::move(samples));
   last_ns_ = result.stamp_ns;
+  last_dt_s_ = dt_s;
   last_twist_ = twist;
   setVelocities(pair.camera, twist);
 }

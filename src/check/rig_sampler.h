@@ -11,8 +11,8 @@
 
 namespace rotrocc {
 
-/// Measures the flow of a feature, its derivatives, and its point. x_right and y of the sample are
-/// set; the flow stays zero if its disparity is too small to have errors that are parts of it.
+/// Measures the flow of a feature, its derivatives, and its point. x_right and y of the sample must
+/// be set; the flow stays zero if its disparity is too small to have errors that are parts of it.
 void measureFlow(const StereoCamera& camera,
                  const OdometryResult& result,
                  const Correspondence& feature,
@@ -29,16 +29,17 @@ class RigSampler {
   const std::vector<PairSamples>& pairs() const { return pairs_; }
 
  private:
-  /// Those of the last samples, from the motion of the left camera per second.
+  /// Of the last samples, from the motion of the left camera per second.
   void setVelocities(const StereoCamera& camera, const Vector6d& twist);
   void measureRow(const CheckedPair& pair, const Correspondence& feature, RigSample& sample);
 
   FeatureTracker tracker_;
   std::vector<PairSamples> pairs_;
   std::size_t samples_ = 0;
-  std::int64_t stepped_ns_ = -1;            // keyframe before the last step of the clock
-  std::int64_t last_ns_ = -1;               // of the last samples
-  Vector6d last_twist_ = Vector6d::Zero();  // before them [m/s, rad/s]
+  // Of the last samples, and of the motion that ended there.
+  std::int64_t last_ns_ = -1;
+  double last_dt_s_ = 0.0;
+  Vector6d last_twist_ = Vector6d::Zero();  // [m/s, rad/s]
 };
 
 }  // namespace rotrocc

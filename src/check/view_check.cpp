@@ -65,21 +65,23 @@ class ViewCheck : public PairCheck {
   void compareWithLast(const CheckedPair& pair, const ImageGrid& grid) {
     constexpr double kOfDifference = 1.13;  // its mean size over the deviation of one image
     constexpr float kOverNoise = 2.0F;      // texture, and changes
-    constexpr double kStill = 0.25;         // change over texture
+    constexpr double kStill = 0.15;         // over texture, a change beyond noise
     constexpr double kChanging = 0.3;       // of the cells with texture
     constexpr double kStill_px = 0.5;
     const cv::Mat& image = pair.images.left;
-    const cv::Mat last = std::exchange(last_, image.clone());
+    cv::Mat last = std::exchange(last_, image.clone());
     if (last.empty()) return;
     cv::Mat difference;
+    last.convertTo(last, CV_8U, cv::mean(image)[0] / std::max(cv::mean(last)[0], 1.0));
     cv::absdiff(image, last, difference);
     const cv::Mat_<float> changes = cellMeans(difference, grid);
     const cv::Mat_<float> textures = detailOf(image, grid);
     std::vector<int> buffer;
     const auto noise = static_cast<float>(kOfDifference * std::sqrt(noiseVariance(image, buffer)));
     const cv::Mat textured = textures >= kOverNoise * noise;
-    const cv::Mat still = textured & (changes < kStill * textures);
-    const int changing = cv::countNonZero(textured & (changes >= kOverNoise * noise));
+    const cv::Mat moved = kStill * textures;
+    const cv::Mat still = textured & (changes.mul(changes) < moved.mul(moved) + noise * noise);
+    const int changing = cv::countNonZero(textured & ~still & (changes >= kOverNoise * noise));
     if (changing == 0 || changing < kChanging * cv::countNonZero(textured)) return;
     ++changing_pairs_;
     if (pair.result.hasMotion() && pair.flow_px < kStill_px) ++resting_pairs_;

@@ -155,12 +155,12 @@ TEST(MotionEstimatorTest, TheCovarianceIsThatOfTheErrors) {
   }
 }
 
-/// The median of 600 lengths has a standard deviation of 2.5 %.
+/// The median of 600 lengths has a standard deviation of 2.9 %.
 TEST(MotionEstimatorTest, TheFlowNoiseIsThatOfTheFeatures) {
   for (const bool has_outliers : {false, true}) {
     const double noise_px =
         estimate(has_outliers ? withRandomMatches(0.3, 1) : goodFeatures(1)).flow_noise_px;
-    EXPECT_NEAR(noise_px, kNoise.flow_px, kSigmas * 0.025 * kNoise.flow_px) << has_outliers;
+    EXPECT_NEAR(noise_px, kNoise.flow_px, kSigmas * 0.029 * kNoise.flow_px) << has_outliers;
   }
 }
 
