@@ -41,7 +41,7 @@ class GyroCheck : public PairCheck {
 
   void observe(const CheckedPair& pair) override {
     const OdometryResult& result = pair.result;
-    // Over a step of the clock, its turn is not that of the gyroscope.
+    // Over a step of the clock, the gyroscope's turn is another one.
     if (!result.hasMotion() || result.clock_set_ns != result.prev_clock_set_ns) return;
     turns_.push_back({pair.time_s,
                       result.prev_stamp_ns,

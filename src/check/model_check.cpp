@@ -98,9 +98,9 @@ void addCauses(const StereoCamera& camera, const RigModel& model, RigReport& rep
              {skew_s * 100.0, kAcceptable * kFixRows_px, kFixRows_px});
 }
 
-/// Rows as they are, and what is left of them: of what several windows have in common, as an error
-/// of the rig, and as opposed to those of matches. The square of a cell's mean, minus the variance
-/// of the mean, has no noise of its own.
+/// Row differences, and what the model leaves of them. Windows of time have errors of the rig in
+/// common, but not errors of matches: the square of a cell's mean, minus the variance of the mean,
+/// has no noise.
 void addRows(const StereoCamera& camera,
              const std::vector<PairSamples>& pairs,
              const RigModel& model,

@@ -103,7 +103,7 @@ Eigen::Vector3d fitLevels(const Eigen::ArrayXd& from,
   return levels;
 }
 
-/// Power spectrum of windowed patches, minus that of the white noise of their image.
+/// Power spectrum of windowed patches, minus the white noise of their image.
 struct Spectrum {
   cv::Mat_<float> power;
   double noise;  ///< that was subtracted

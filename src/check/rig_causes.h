@@ -12,7 +12,7 @@
 
 namespace rotrocc {
 
-/// What makes the right image differ from that of a rectified pair.
+/// What makes a pair differ from a rectified one.
 enum RigCause {
   kRoll,      ///< [rad] rotation of the right camera about its optical axis: clockwise
   kPitch,     ///< [rad] about x: looks up
@@ -51,8 +51,8 @@ struct RigSample {
   Eigen::Vector3d point = Eigen::Vector3d::UnitZ();         ///< in the left camera [m]
   Eigen::Vector2d velocity_pxps = Eigen::Vector2d::Zero();  ///< in the right image
 
-  // The errors of its flow, linear in those of its disparity and of the motion:
-  Eigen::Vector2d flow_px = Eigen::Vector2d::Zero();  ///< measured, minus that of the motion
+  // Errors of its flow, linear in errors of its disparity and of the motion:
+  Eigen::Vector2d flow_px = Eigen::Vector2d::Zero();            ///< measured, minus the motion's
   Eigen::Vector2d flow_by_disparity = Eigen::Vector2d::Zero();  ///< zero: says nothing
   /// By kBothLenses, kBothX and kBothY.
   Eigen::Matrix<double, 2, 3> flow_by_both = Eigen::Matrix<double, 2, 3>::Zero();

@@ -51,7 +51,7 @@ double sigmaOfShape(RigCause turn, const RigModel& model) {
   return std::hypot(model.sigmas[turn], model.values[kTwist] / 3.0);
 }
 
-/// Whether the shape of the errors is that of the turn which makes the value in the middle, or
+/// Whether the errors have the shape of the turn which makes the value in the middle, or
 /// none: by the ratio of their likelihoods.
 TurnOrShift decide(const Turn& turn, const RigModel& model) {
   const double shape = model.values[turn.turn];

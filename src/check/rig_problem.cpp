@@ -246,7 +246,7 @@ RigProblem::FlowResidual RigProblem::residualOf(
   return residual;
 }
 
-/// Adds those of a pair, also without each part of the image.
+/// Adds the flows of a pair, also without each part of the image.
 void RigProblem::addFlows(std::size_t pair,
                           const std::vector<std::pair<FlowResidual, std::size_t>>& residuals) {
   std::array<FlowSums, kRegions> parts;
