@@ -122,9 +122,9 @@ class RigPage:
         columns = 'x_px', 'y_px', 'row_px', 'sigma_px'
         before, after = ({cell[:2]: cell[2:] for cell in zip(*(self.tables[name][column] for column in columns))}
                          for name in ('rows_map', 'rows_map_corrected'))
-        common = [cell for cell in before.keys() & after.keys() if numpy.isfinite([before[cell][1], after[cell][1]]).all()]
-        worse = [cell for cell in common
-                 if abs(after[cell][0]) - abs(before[cell][0]) > 3.0 * numpy.hypot(before[cell][1], after[cell][1])]
+        sigmas = {cell: numpy.hypot(before[cell][1], after[cell][1]) for cell in before.keys() & after.keys()}
+        common = [cell for cell in sigmas if numpy.isfinite(sigmas[cell])]
+        worse = [cell for cell in common if abs(after[cell][0]) - abs(before[cell][0]) > 3.0 * sigmas[cell]]
         return ('In %d of %d parts of the image, rows differ more with it: see the map of rows.'
                 % (len(worse), len(common)) if worse else '')
 

@@ -240,11 +240,12 @@ class PairChecks {
   void addRepeated(RigReport& report) const {
     if (pairs_ < 2) return;
     const double most = static_cast<double>(std::max(repeated_left_, repeated_right_)) / pairs_;
+    const bool both = repeated_left_ == repeated_right_;
     report.add({"inputs",
                 "repeated images",
                 toText(repeated_left_) + " left and " + toText(repeated_right_) + " right of " +
                     toText(pairs_) + " repeat the previous one",
-                "the motion stops and jumps, or the images are of different times",
+                both ? "the motion stops and then jumps" : "the images are of different times",
                 "look for a driver that sends its last buffer again, or a camera that hangs"},
                {{most}, 0.0, 0.02});
   }

@@ -160,7 +160,7 @@ RigCauses RigProblem::causesOf(const RigCauses& some_values) const {
 
 void RigProblem::leaveOut(std::size_t cause) {
   is_left_out_[cause] = true;
-  values[cause] = linearized_at_[cause] = 0.0;  // in the middle, a turn takes its place
+  values[cause] = linearized_at_[cause] = 0.0;  // no motion follows: it is noise, or now a turn
 }
 
 /// Sums of squares at the values, and the noise of what is left there, for the next time.

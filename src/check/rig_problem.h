@@ -92,10 +92,10 @@ class RigProblem {
   ImageGrid regions_grid_;
   std::array<bool, kRigCauses> is_left_out_ = {};  // these are zero
   std::vector<std::size_t> window_of_;             // of a pair
-  std::vector<MotionError> motion_errors_;
-  RigCauses linearized_at_ = {};
-  std::vector<Normal> rows_, flows_;      // for each window
-  std::array<Normal, kRegions> without_;  // each part of the image: flows, minus its rows
+  std::vector<MotionError> motion_errors_;         // of each pair
+  RigCauses linearized_at_ = {};                   // values of motion_errors_
+  std::vector<Normal> rows_, flows_;               // for each window
+  std::array<Normal, kRegions> without_;           // each part of the image: flows, minus its rows
   double row_noise_px_ = 1.0;
   double flow_noise_ = 1.0;  // over that of the odometry
 };

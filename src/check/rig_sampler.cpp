@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/to_seconds.h"
-
 namespace rotrocc {
 namespace {
 
