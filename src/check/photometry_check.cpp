@@ -18,8 +18,7 @@
 namespace rotrocc {
 namespace {
 
-constexpr std::size_t kPerPair = 150;
-constexpr std::size_t kLeast = 30;
+constexpr std::size_t kPerPair = 150, kLeast = 30;
 constexpr int kPatch = 4;  // radius of the patches whose means are compared [px]
 
 /// Of pairs: gray levels hardly differ between two that follow each other, and sharpness, which
@@ -70,8 +69,7 @@ std::vector<Eigen::Array3d> patchMeans(const CheckedPair& pair) {
   const cv::Point2d corner(0.5 * pair.camera.width, 0.5 * pair.camera.height);
   std::vector<Eigen::Array3d> means;
   for (const Patch& patch : patchesOf(pair, kPatch, kPerPair)) {
-    const cv::Mat left = pair.images.left(patch.left);
-    const cv::Mat right = pair.images.right(patch.right);
+    const cv::Mat left = pair.images.left(patch.left), right = pair.images.right(patch.right);
     if (std::max(cv::norm(left, cv::NORM_INF), cv::norm(right, cv::NORM_INF)) >= kWhite) continue;
     const cv::Point2d at = 0.5 * cv::Point2d(patch.left.tl() + patch.left.br()) - corner;
     means.emplace_back(cv::mean(left)[0], cv::mean(right)[0], at.dot(at) / corner.dot(corner));

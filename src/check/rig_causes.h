@@ -48,7 +48,6 @@ struct RigSample {
   double x_right = 0.0;  ///< normalized coordinate in the right image
   double y = 0.0;        ///< normalized coordinate in the left image
   double row_px = NAN;   ///< how much lower the feature is in the right image; nan: not measured
-  Eigen::Vector3d point = Eigen::Vector3d::UnitZ();         ///< in the left camera [m]
   Eigen::Vector2d velocity_pxps = Eigen::Vector2d::Zero();  ///< in the right image
 
   // Errors of its flow, linear in errors of its disparity and of the motion:

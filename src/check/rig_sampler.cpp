@@ -29,19 +29,18 @@ Eigen::Matrix<double, 2, 3> pixelByPoint(const StereoCamera& camera, const Eigen
 
 }  // namespace
 
-void measureFlow(const StereoCamera& camera,
-                 const OdometryResult& result,
-                 const Correspondence& feature,
-                 RigSample& sample) {
+Eigen::Vector3d measureFlow(const StereoCamera& camera,
+                            const OdometryResult& result,
+                            const Correspondence& feature,
+                            RigSample& sample) {
   constexpr double kLeast_px = 1.0;  // of a disparity, of which errors are parts
   const UncertainTransform& motion = result.T_keyframe_cur;
   const double applied_px = result.disparity_bias.applied_px;
   const double from_infinity_px = feature.disparity_px + applied_px - camera.disparityAtInfinity();
   const double depth_m = camera.fx * camera.baseline_m / std::max(from_infinity_px, kLeast_px);
   const Eigen::Vector3d ray = camera.ray(feature.cur_px);
-  sample.point = depth_m * ray;
-  const Eigen::Vector3d point = motion.T * sample.point;
-  if (from_infinity_px < kLeast_px || !isUsableDepth(point.z())) return;
+  const Eigen::Vector3d point = motion.T * (depth_m * ray);
+  if (from_infinity_px < kLeast_px || !isUsableDepth(point.z())) return depth_m * ray;
   const Eigen::Matrix<double, 2, 3> by_point = pixelByPoint(camera, point);
   sample.flow_by_motion << by_point, -by_point * skew(point);
   sample.flow_by_disparity = by_point * (motion.T.linear() * ray) * (-depth_m / from_infinity_px);
@@ -61,6 +60,7 @@ void measureFlow(const StereoCamera& camera,
       by_ray * Eigen::Vector2d(1.0 / camera.fx, 1.0 / camera.fy).asDiagonal();
   sample.flow_px =
       feature.keyframe_px - camera.project(point) + applied_px * sample.flow_by_disparity;
+  return depth_m * ray;
 }
 
 void RigSampler::observe(const CheckedPair& pair) {
@@ -73,6 +73,7 @@ void RigSampler::observe(const CheckedPair& pair) {
   }
   if (!pair.has_moved) return;
   PairSamples samples = {pair.time_s, result.flow_noise_px, {}};
+  last_points_.clear();
   const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPerPair);
   for (std::size_t i = 0; i < pair.features.size(); i += step) {
     if (pair.inliers[i] == 0) continue;
@@ -82,7 +83,7 @@ void RigSampler::observe(const CheckedPair& pair) {
     sample.x_right =
         (feature.cur_px.x() - feature.disparity_px - pair.camera.cx_right) / pair.camera.fx;
     sample.y = (feature.cur_px.y() - pair.camera.cy) / pair.camera.fy;
-    measureFlow(pair.camera, result, feature, sample);
+    last_points_.push_back(measureFlow(pair.camera, result, feature, sample));
     measureRow(pair, feature, sample);
     samples.samples.push_back(sample);
   }
@@ -95,9 +96,10 @@ void RigSampler::observe(const CheckedPair& pair) {
 
 void RigSampler::setVelocities(const StereoCamera& camera, const Vector6d& twist) {
   const Eigen::Vector3d right(camera.baseline_m, 0.0, 0.0);
-  for (RigSample& sample : pairs_.back().samples) {
-    const Eigen::Vector3d velocity_mps = sample.point.cross(twist.tail<3>()) - twist.head<3>();
-    sample.velocity_pxps = pixelByPoint(camera, sample.point - right) * velocity_mps;
+  auto sample = pairs_.back().samples.begin();
+  for (const Eigen::Vector3d& point : last_points_) {
+    const Eigen::Vector3d velocity_mps = point.cross(twist.tail<3>()) - twist.head<3>();
+    (sample++)->velocity_pxps = pixelByPoint(camera, point - right) * velocity_mps;
   }
 }
 

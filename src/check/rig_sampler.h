@@ -11,12 +11,13 @@
 
 namespace rotrocc {
 
-/// Measures the flow of a feature, its derivatives, and its point. x_right and y of the sample must
-/// be set; the flow stays zero if its disparity is too small to have errors that are parts of it.
-void measureFlow(const StereoCamera& camera,
-                 const OdometryResult& result,
-                 const Correspondence& feature,
-                 RigSample& sample);
+/// Measures the flow of a feature and its derivatives. Returns its point in the left camera [m].
+/// x_right and y of the sample must be set; the flow stays zero if its disparity is too small to
+/// have errors that are parts of it.
+Eigen::Vector3d measureFlow(const StereoCamera& camera,
+                            const OdometryResult& result,
+                            const Correspondence& feature,
+                            RigSample& sample);
 
 /// Measures features that agree with the motion in both images, of pairs that have moved.
 class RigSampler {
@@ -40,6 +41,7 @@ class RigSampler {
   std::int64_t last_ns_ = -1;
   double last_dt_s_ = 0.0;
   Vector6d last_twist_ = Vector6d::Zero();  // [m/s, rad/s]
+  std::vector<Eigen::Vector3d> last_points_;
 };
 
 }  // namespace rotrocc
