@@ -13,14 +13,6 @@
 #include "input/to_text.h"
 
 namespace rotrocc {
-namespace {
-
-/// Limits of the time between left and right, in periods.
-constexpr double kAcceptablePeriods = 0.05;
-constexpr double kFixPeriods = 0.25;
-
-}  // namespace
-
 void InputCheck::observe(const RecordedMessage& message) {
   if (message.left_info) left_info_ = message.left_info;
   if (message.right_image) right_ns_.push_back(toNanoseconds(message.right_image->header.stamp));
@@ -108,6 +100,8 @@ void InputCheck::addStamps(double max_apart_s, RigReport& report) const {
                           i > 0 ? 1e3 * toSeconds(left_ns[i] - left_ns[i - 1]) : NAN});
   }
   report.tables.push_back(std::move(table));
+  constexpr double kAcceptable = 0.05, kFix = 0.25;  // periods between left and right
+  const double period_s = toSeconds(*period_ns);
   const auto [least, most] = std::minmax_element(apart_s.begin(), apart_s.end());
   const double largest_s = std::max(std::abs(*least), std::abs(*most));
   const double typical_s = median(apart_s);
@@ -122,8 +116,8 @@ void InputCheck::addStamps(double max_apart_s, RigReport& report) const {
        "trigger both cameras by one signal, and take its time for both stamps; if the images are "
        "of the same time, correct the stamps, or set `max_stamp_difference_s`"},
       {{is_recorded ? typical_s : NAN},
-       kAcceptablePeriods * toSeconds(*period_ns),
-       std::min(kFixPeriods * toSeconds(*period_ns), max_apart_s)});
+       kAcceptable * period_s,
+       std::min(kFix * period_s, max_apart_s)});
   if (!has_ages) return;
   report.add(
       {"inputs",

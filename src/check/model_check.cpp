@@ -89,13 +89,14 @@ void addCauses(const StereoCamera& camera, const RigModel& model, RigReport& rep
               kOtherLens},
              {both, kAcceptable, 1.0});
   const Estimate skew_s = model.value(kTimeSkew);
+  const Estimate shift_px = skew_s * (10.0 / kDegrees * camera.fx);
   report.add({"time",
               "right images against left ones",
               toText(skew_s * 1e3, "ms") + " later",
-              "disparities are wrong by " + fixedText(100.0 * std::abs(skew_s.value), 2) +
-                  " px for motion at 100 px/s, and everywhere when the rig turns",
+              "disparities are wrong by " + fixedText(std::abs(shift_px.value), 2) +
+                  " px when the rig turns by 10 deg/s",
               "trigger both cameras by the same signal, and give both the same exposure time"},
-             {skew_s * 100.0, kAcceptable * kFixRows_px, kFixRows_px});
+             {shift_px, kAcceptable * model.fix_rows_px, model.fix_rows_px});
 }
 
 /// Row differences, and what the model leaves of them. Windows of time have errors of the rig in
@@ -144,7 +145,7 @@ void addRows(const StereoCamera& camera,
                   " px (rms over the image)",
               "smooth errors of the lenses",
               kOtherLens},
-             {rest.unexplained_px, 2.0 * kAcceptable * kFixRows_px, kFixRows_px});
+             {rest.unexplained_px, 2.0 * kAcceptable * model.fix_rows_px, model.fix_rows_px});
 }
 
 void addCourse(const char* name,
@@ -163,6 +164,7 @@ void addCourse(const char* name,
 /// What the model does not explain at one time: a rig that bends, or that was hit. A plane over the
 /// image, as a rotation makes it: kOffset, kRoll and kFocal. Returns whether it is little.
 bool addRowsOverTime(const StereoCamera& camera,
+                     const RigModel& model,
                      const std::vector<std::vector<Estimate>>& courses,
                      const Windows& windows,
                      double rows_px,
@@ -181,8 +183,8 @@ bool addRowsOverTime(const StereoCamera& camera,
               "move by " + fixedText(motion_px.value, 2) + " px (rms)",
               "no calibration fits a rig that moves",
               "mount both cameras on one stiff bar, and fix lenses and connectors"},
-             {motion_px, kAcceptable * kFixRows_px, kFixRows_px});
-  return motion_px.value < std::max(kAcceptable * kFixRows_px, 0.5 * rows_px);
+             {motion_px, kAcceptable * model.fix_rows_px, model.fix_rows_px});
+  return motion_px.value < std::max(kAcceptable * model.fix_rows_px, 0.5 * rows_px);
 }
 
 /// Returns whether a calibration can describe the bias: not if it moves by half of its mean.
@@ -195,6 +197,7 @@ bool addBias(const StereoCamera& camera,
   const Estimate motion_px = scatterBeyondNoise(course_px);
   Estimate bias_px = model.value(kBias);
   const bool lasts =
+      !(motion_px.certain() > 0.0) ||
       motion_px.value < std::max(kFixScale * typical_px, 0.5 * std::abs(bias_px.value));
   if (!lasts) bias_px.sigma = std::hypot(bias_px.sigma, motion_px.value);
   const double at_10_m = 10.0 * bias_px.value / (camera.fx * camera.baseline_m);
@@ -245,7 +248,7 @@ ModelRest checkModel(const StereoCamera& camera,
   const auto planes = problem.courses({kOffset, kRoll, kFocal}, fine);
   const auto biases_px = problem.courses({kBias}, windows)[0];
   addCourse("bias_time", "time_s,bias_px,sigma_px", biases_px, windows, report);
-  const bool rows_last = addRowsOverTime(camera, planes, fine, rest.rows_px, report);
+  const bool rows_last = addRowsOverTime(camera, model, planes, fine, rest.rows_px, report);
   const bool bias_lasts = addBias(camera, model, biases_px, applied_px, report);
   rest.is_constant = rows_last && bias_lasts;
   return rest;

@@ -328,12 +328,7 @@ class PhotometryCheck : public PairCheck {
     const Property kProperties[] = {
         {"saturated pixels", "%", kEmpty, "reduce the exposure", 0.1, &Levels::saturated},
         {"black pixels", "%", kEmpty, "add light, exposure or gain", 0.1, &Levels::dark},
-        {"noise",
-         "% of the contrast",
-         kNoisy,
-         "more light, less gain",
-         0.15,
-         &Levels::noise_share}};
+        {"noise", "% of contrast", kNoisy, "more light, less gain", 0.15, &Levels::noise_share}};
     for (const auto& [side, levels] : {std::pair(", left", &Row::left), {", right", &Row::right}}) {
       for (const Property& p : kProperties) {
         std::vector<TimedValue> shares;

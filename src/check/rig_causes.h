@@ -23,7 +23,7 @@ enum RigCause {
   kTimeSkew,  ///< [s] how much later the right image is taken
   kBias,      ///< [px] principal point of the right image, how much further right
   kTwist,     ///< [rad] rows like those of a yaw, without its errors of disparities: of a lens
-  // Of both images, of which only flows have the errors:
+  // Of both images; disparities and rows have hardly any errors of them:
   kBothLenses,  ///< k1 that they have too much
   kBothX,       ///< [px] principal points, how much further right
   kBothY        ///< [px] how much lower
@@ -42,7 +42,7 @@ inline Eigen::Matrix3d rotationOf(const RigCauses& causes) {
       .toRotationMatrix();
 }
 
-/// A feature that agrees with the motion of its pair.
+/// A feature of a pair.
 struct RigSample {
   cv::Point2f left_px;
   double x_right = 0.0;  ///< normalized coordinate in the right image
@@ -53,6 +53,7 @@ struct RigSample {
   // Errors of its flow, linear in errors of its disparity and of the motion:
   Eigen::Vector2d flow_px = Eigen::Vector2d::Zero();            ///< measured, minus the motion's
   Eigen::Vector2d flow_by_disparity = Eigen::Vector2d::Zero();  ///< zero: says nothing
+  double damping_ppx = 0.0;  ///< a large error d counts as d / (1 + damping d): perspective
   /// By kBothLenses, kBothX and kBothY.
   Eigen::Matrix<double, 2, 3> flow_by_both = Eigen::Matrix<double, 2, 3>::Zero();
   Eigen::Matrix<double, 2, 6> flow_by_motion = Eigen::Matrix<double, 2, 6>::Zero();
@@ -73,17 +74,25 @@ class RigDisplacement {
 
   /// How much further right, and lower, a feature is [px].
   Eigen::Vector2d of(const RigSample& sample) const {
-    const Eigen::Vector2d straight(sample.x_right, sample.y);
-    const Eigen::Vector2d turned = (R_right_left_ * straight.homogeneous()).hnormalized();
-    const double scale = (1.0 + causes_[kFocal]) * (1.0 + causes_[kLens] * turned.squaredNorm());
-    const Eigen::Vector2d moved = scale * turned - straight;
-    const double twisted = causes_[kTwist] * sample.x_right * sample.y;
-    return Eigen::Vector2d(camera_.fx * moved.x() + causes_[kBias],
-                           camera_.fy * (moved.y() - twisted) + causes_[kOffset]) +
-           causes_[kTimeSkew] * sample.velocity_pxps;
+    // It is seen where the causes have moved it to.
+    const double further = from({sample.x_right, sample.y}, sample).x() / camera_.fx;
+    return from({sample.x_right - further, sample.y}, sample);
   }
 
  private:
+  Eigen::Vector2d from(const Eigen::Vector2d& straight, const RigSample& sample) const {
+    const Eigen::Vector2d turned = (R_right_left_ * straight.homogeneous()).hnormalized();
+    const double scale = (1.0 + causes_[kFocal]) * (1.0 + causes_[kLens] * turned.squaredNorm());
+    // Both lenses move a row by its distances from their middles, which differ by the disparity.
+    const double x_left = (sample.left_px.x - camera_.cx) / camera_.fx;
+    const double bent = causes_[kBothLenses] * (std::pow(straight.x(), 2) - std::pow(x_left, 2));
+    const double lower = (bent - causes_[kTwist] * straight.x()) * straight.y();
+    const Eigen::Vector2d moved = scale * turned - straight + Eigen::Vector2d(0.0, lower);
+    return Eigen::Vector2d(camera_.fx * moved.x() + causes_[kBias],
+                           camera_.fy * moved.y() + causes_[kOffset]) +
+           causes_[kTimeSkew] * sample.velocity_pxps;
+  }
+
   const StereoCamera& camera_;
   RigCauses causes_;
   Eigen::Matrix3d R_right_left_;

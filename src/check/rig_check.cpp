@@ -61,6 +61,7 @@ class PairChecks {
     ++pairs_;
     const OdometryResult result = odometry_.process(pair, camera);
     with_motion_ += result.hasMotion() ? 1 : 0;
+    camera_.detail_px = std::exp2(result.halvings);
     ok_ += result.state == State::kOk ? 1 : 0;
     if (result.hasMotion()) applied_px_ = result.disparity_bias.applied_px;
     path_m_ += result.T_prev_cur.translation().norm();
@@ -112,8 +113,8 @@ class PairChecks {
       if (isExplained()) {
         doubt(report);
       } else {
-        const bool is_raw = model.exceeds(1.0, kBothLenses);
-        rig.measures.is_known = (is_raw || !addCenter(model, report)) &&
+        const bool is_of_lens = model.exceeds(1.0, kBothLenses) || model.exceeds(1.0, kLens);
+        rig.measures.is_known = (is_of_lens || !addCenter(model, report)) &&
                                 !addRectification(rig.measures.rest, model, report);
       }
     }
@@ -194,7 +195,7 @@ class PairChecks {
   bool addRectification(const ModelRest& rest, const RigModel& model, RigReport& report) const {
     const bool is_raw = model.exceeds(1.0, kBothLenses);
     const bool is_unexplained =
-        rest.unexplained_px.certain() > kFixRows_px &&
+        rest.unexplained_px.certain() > model.fix_rows_px &&
         std::none_of(report.findings.begin(), report.findings.end(), [](const Finding& finding) {
           if (finding.verdict > Verdict::kAcceptable) return false;
           return finding.subject == kRowsOverTime || finding.subject == kMasked ||

@@ -81,18 +81,6 @@ class RigFit {
     turns_[1] = {{kYaw, kBias, -1.0 / camera.fx}, &model.horizontal};
   }
 
-  /// Most recordings show no principal point of both cameras, which would only blur the others, and
-  /// few rigs have a wrong one. With eight parts of the image, 0.02 % exceed 7 sigma by chance.
-  void leaveOutCenter() {
-    constexpr double kSigmas = 7.0;
-    fit();
-    for (const RigCause cause : {kBothX, kBothY}) {
-      const double size = std::abs(model_.values[cause]);
-      const double costs_px = kAcceptable * kFixScale * camera_.fx;
-      if (size < kSigmas * model_.sigmas[cause] + costs_px) problem_.leaveOut(cause);
-    }
-  }
-
   void decideTurns() {
     fit();
     first_sigmas_ = model_.sigmas;
@@ -107,23 +95,24 @@ class RigFit {
     }
   }
 
+  /// Few rigs have a wrong principal point of both cameras, which blurs other values: it must cost
+  /// something. With eight parts of the image, 0.02 % exceed 7 sigma by chance.
   void leaveOutInsignificant() {
-    constexpr double kSigmas = 3.0;
+    constexpr double kSigmas = 3.0, kSigmasOfCenter = 7.0;
+    const double costs_px = kAcceptable * kFixScale * camera_.fx;
     for (std::size_t weakest = 0; weakest < kRigCauses;) {
       fit();
       weakest = kRigCauses;
-      double least = kSigmas;
+      double least = 1.0;
       for (std::size_t k = 0; k < kRigCauses; ++k) {
-        const double significance = std::abs(model_.values[k]) / model_.sigmas[k];
+        const double limit =
+            k < kBothX ? kSigmas * model_.sigmas[k] : kSigmasOfCenter * model_.sigmas[k] + costs_px;
+        const double significance = std::abs(model_.values[k]) / limit;
         if (problem_.isLeftOut(k) || significance >= least) continue;
         least = significance;
         weakest = k;
       }
       if (weakest < kRigCauses) problem_.leaveOut(weakest);
-    }
-    if (!problem_.isLeftOut(kTimeSkew)) {
-      problem_.skew_is_of_rows = true;
-      fit();
     }
     model_.causes = problem_.causesOf(model_.values);
     // That others are left out is no certainty.
@@ -198,7 +187,7 @@ class RigFit {
 }  // namespace
 
 double RigModel::severityOf(const Eigen::Vector2d& effect_px) const {
-  return std::max(effect_px.x() / (kFixScale * typical_disparity_px), effect_px.y() / kFixRows_px);
+  return std::max(effect_px.x() / (kFixScale * typical_disparity_px), effect_px.y() / fix_rows_px);
 }
 
 Estimate RigModel::severity(RigCause cause) const {
@@ -209,6 +198,7 @@ RigModel fitRig(const StereoCamera& camera,
                 const std::vector<PairSamples>& pairs,
                 const Windows& windows) {
   RigModel model;
+  model.fix_rows_px = 0.4 * camera.detail_px;
   std::size_t count = 0;
   for (const PairSamples& pair : pairs) count += pair.samples.size();
   if (count < kLeastSamples) {
@@ -221,7 +211,6 @@ RigModel fitRig(const StereoCamera& camera,
   const std::size_t step = count / kMostSamples + 1;
   for (std::size_t i = 0; i < pairs.size(); i += step) fitted.push_back(pairs[i]);
   RigFit fit(camera, fitted, windows, model);
-  fit.leaveOutCenter();
   fit.decideTurns();
   fit.leaveOutInsignificant();
   fit.addCorrectable();

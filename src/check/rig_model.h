@@ -29,6 +29,7 @@ struct RigModel {
   TurnOrShift vertical = TurnOrShift::kEither;    ///< pitch or offset
   TurnOrShift horizontal = TurnOrShift::kEither;  ///< yaw or bias
   double typical_disparity_px = 0.0;              ///< corrected one of the mean depth
+  double fix_rows_px = 0.0;                       ///< rows to be fixed: a share of the detail
   /// By how much rows and flows fit better in windows that the calibration by the other windows
   /// corrects: sums of squares over noise. What does not repeat itself is worth nothing.
   Estimate rows_gain, flow_gain;
@@ -45,20 +46,17 @@ struct RigModel {
   bool exceeds(double limit, RigCause cause) const { return severity(cause).certain() > limit; }
 };
 
-/// Limits of effects. Matches are searched in rounded rows, so a quarter of a row costs nothing;
-/// from half a row on, windows contain another row. Of disparities: the error of the scale at the
-/// typical one, when nobody corrects it. Below kAcceptable, of these, they cost nothing.
-constexpr double kFixRows_px = 0.4;
+/// Limits of effects. Matches are searched in rounded rows of the detail: a quarter of a row costs
+/// nothing; from half a row on, windows contain another row. Of disparities: the error of the scale
+/// at the typical one, when nobody corrects it. Below kAcceptable, of these, they cost nothing.
 constexpr double kFixScale = 0.03;
 constexpr double kAcceptable = 0.3;
 
-/// Finds the causes by rows and disparities together: least squares with Cauchy weights, for each
-/// pair with the error of its motion, which takes a part of most errors of disparities. Standard
-/// deviations are the largest ones of independent errors, with what those in a part of the image
-/// have in common, and of the scatter without each window, and without each part of the image.
-/// Values that are not significant are left out, least significant first, and are zero then. All
-/// sigmas are at least those with all values. With fewer samples than kLeastSamples all is zero,
-/// and sigmas are infinite.
+/// Finds the causes by rows and disparities together: least squares with robust weights, for each
+/// pair with the error of its motion, which takes a part of most errors of disparities. Values that
+/// are not significant are left out, least significant first, and are zero then. All sigmas, see
+/// RigProblem, are at least those with all values. With fewer samples than kLeastSamples all is
+/// zero, and sigmas are infinite.
 RigModel fitRig(const StereoCamera& camera,
                 const std::vector<PairSamples>& pairs,
                 const Windows& windows);

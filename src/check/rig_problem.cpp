@@ -21,7 +21,7 @@ constexpr double kRobust = 1.5;
 
 constexpr auto kCauses = static_cast<int>(kRigCauses);
 
-double weightOf(double sigmas) {
+double cauchyWeight(double sigmas) {
   return 1.0 / (1.0 + std::pow(sigmas / kRobust, 2));
 }
 
@@ -116,11 +116,16 @@ RigCauses RigProblem::sigmas() const {
 std::vector<std::vector<Estimate>> RigProblem::courses(const std::vector<RigCause>& causes,
                                                        const Windows& windows) const {
   constexpr double kKnown = 0.1;  // of the prior
+  constexpr std::size_t kParts = 5;
   std::vector<std::vector<PairSamples>> parts(windows.count());
-  for (const PairSamples& pair : pairs_) parts[windows.of(pair.time_s)].push_back(pair);
+  for (const PairSamples& pair : pairs_) {
+    const std::size_t w = windows.of(pair.time_s);
+    parts[w].push_back(pair);
+    parts[w].back().time_s -= windows.middle_s(w) - windows.middle_s(0);
+  }
   std::vector<std::vector<Estimate>> courses(causes.size());
   for (const std::vector<PairSamples>& part : parts) {
-    RigProblem alone(camera_, part, Windows(windows.duration_s(), part.size(), 1));
+    RigProblem alone(camera_, part, Windows(2.0 * windows.middle_s(0), part.size(), kParts));
     alone.values = values;
     alone.is_of_turn = is_of_turn;
     alone.is_left_out_.fill(true);
@@ -200,7 +205,7 @@ void RigProblem::linearize() {
         row_errors_px.push_back(std::abs(error_px));
         Eigen::Matrix<double, 1, kCauses + 1> row;
         row << jacobian.row(1), error_px;
-        row *= std::sqrt(weightOf(error_px / row_noise_px_)) / row_noise_px_;
+        row *= std::sqrt(cauchyWeight(error_px / row_noise_px_)) / row_noise_px_;
         rows_[window_of_[p]] += row.transpose() * row;
         without_[region] -= row.transpose() * row;
       }
@@ -209,15 +214,12 @@ void RigProblem::linearize() {
     }
     addFlows(p, residuals);
     for (const auto& [residual, region] : residuals) {
-      flow_errors.push_back(std::abs(leftOf(residual, motion_errors_[p])[0]));
+      flow_errors.push_back(flow_noise_ * std::abs(leftOf(residual, motion_errors_[p])[0]));
     }
   }
-  if (!row_errors_px.empty()) {
-    row_noise_px_ = std::max(kDeviationOverMedian * median(row_errors_px), kLeastNoise_px);
-  }
-  if (!flow_errors.empty()) {
-    flow_noise_ =
-        std::max(flow_noise_ * kDeviationOverMedian * median(flow_errors), kLeastNoise_px);
+  for (const auto& [errors, noise] :
+       {std::pair(&row_errors_px, &row_noise_px_), {&flow_errors, &flow_noise_}}) {
+    if (!errors->empty()) *noise = std::max(kDeviationOverMedian * median(*errors), kLeastNoise_px);
   }
 }
 
@@ -234,14 +236,14 @@ RigProblem::FlowResidual RigProblem::residualOf(
   axes.row(1) << -axes(0, 1), axes(0, 0);
   axes.row(0) /= noise_px * std::sqrt(1.0 + length * length);
   axes.row(1) /= noise_px;
-  Jacobian jacobian = sample.flow_by_disparity * by_values;
-  if (skew_is_of_rows) jacobian.col(kTimeSkew).setZero();
+  const double damped = 1.0 / (1.0 + sample.damping_ppx * displaced_px);
+  Jacobian jacobian = damped * damped * sample.flow_by_disparity * by_values;
   for (int k = kBothLenses; k < kCauses; ++k) {
     if (!isLeftOut(k)) jacobian.col(k) = sample.flow_by_both.col(k - kBothLenses);
   }
   FlowResidual residual;
   residual << axes * sample.flow_by_motion, axes * jacobian,
-      axes * (sample.flow_px - displaced_px * sample.flow_by_disparity -
+      axes * (sample.flow_px - damped * displaced_px * sample.flow_by_disparity -
               sample.flow_by_both * Eigen::Map<const Eigen::Vector3d>(&values[kBothLenses]));
   return residual;
 }
@@ -251,7 +253,9 @@ void RigProblem::addFlows(std::size_t pair,
                           const std::vector<std::pair<FlowResidual, std::size_t>>& residuals) {
   std::array<FlowSums, kRegions> parts;
   for (const auto& [residual, region] : residuals) {
-    const double weight = weightOf(leftOf(residual, motion_errors_[pair]).norm() / std::sqrt(2.0));
+    const double sigmas = leftOf(residual, motion_errors_[pair]).norm() / std::sqrt(2.0);
+    // Of Geman and McClure (1987): with Cauchy's, wrong matches of a busy street move the bias.
+    const double weight = std::pow(cauchyWeight(sigmas), 2);
     parts[region].matrix += weight * residual.transpose() * residual;
     ++parts[region].count;
   }

@@ -28,7 +28,7 @@ using Normal = Eigen::Matrix<double, kRigCauses + 1, kRigCauses + 1>;
 using MotionError = Eigen::Matrix<double, 6, kRigCauses + 1>;
 
 /// The least squares of a rig: rows, and flows with the error of each pair's motion eliminated,
-/// with Cauchy weights, by Gauss and Newton.
+/// with robust weights, by Gauss and Newton.
 class RigProblem {
  public:
   RigProblem(const StereoCamera& camera,
@@ -43,8 +43,8 @@ class RigProblem {
   /// not describe.
   RigCauses sigmas() const;
 
-  /// Of each of some causes the values by each window alone, at the other values; of infinite
-  /// deviation if it does not show it.
+  /// The values of some causes by each window alone, at the other values; of infinite deviation if
+  /// it does not show them.
   std::vector<std::vector<Estimate>> courses(const std::vector<RigCause>& causes,
                                              const Windows& windows) const;
 
@@ -59,9 +59,6 @@ class RigProblem {
 
   RigCauses values = {};
   std::array<bool, kRigCauses> is_of_turn = {};  ///< kOffset and kBias that a turn makes alone
-  /// Whether flows do not count for the time skew: features with disparities that are wrong by it
-  /// do not agree with the motion, so that those which do show too little of it.
-  bool skew_is_of_rows = false;
 
  private:
   /// Parts of the image, columns and rows, each of which is left out once.

@@ -44,6 +44,7 @@ Eigen::Vector3d measureFlow(const StereoCamera& camera,
   const Eigen::Matrix<double, 2, 3> by_point = pixelByPoint(camera, point);
   sample.flow_by_motion << by_point, -by_point * skew(point);
   sample.flow_by_disparity = by_point * (motion.T.linear() * ray) * (-depth_m / from_infinity_px);
+  sample.damping_ppx = motion.T.translation().z() / (point.z() * from_infinity_px);
   // Both lenses move the feature in the keyframe, its ray, and its disparity.
   const auto moved = [](const Eigen::Vector2d& at) -> Eigen::Vector2d {
     return at.squaredNorm() * at;
@@ -69,14 +70,14 @@ void RigSampler::observe(const CheckedPair& pair) {
   const double dt_s = result.dt_s();
   const Vector6d twist = logMotion(result.T_prev_cur) / dt_s;
   if (result.prev_stamp_ns == last_ns_) {  // a parabola through three poses
-    setVelocities(pair.camera, (dt_s * last_twist_ + last_dt_s_ * twist) / (dt_s + last_dt_s_));
+    addVelocities(pair.camera, last_dt_s_ / (dt_s + last_dt_s_) * (twist - last_twist_));
   }
   if (!pair.has_moved) return;
   PairSamples samples = {pair.time_s, result.flow_noise_px, {}};
   last_points_.clear();
+  tracker_.setDetail(std::exp2(result.halvings));
   const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPerPair);
   for (std::size_t i = 0; i < pair.features.size(); i += step) {
-    if (pair.inliers[i] == 0) continue;
     const Correspondence& feature = pair.features[i];
     RigSample sample;
     sample.left_px = cv::Point2d(feature.cur_px.x(), feature.cur_px.y());
@@ -84,6 +85,9 @@ void RigSampler::observe(const CheckedPair& pair) {
         (feature.cur_px.x() - feature.disparity_px - pair.camera.cx_right) / pair.camera.fx;
     sample.y = (feature.cur_px.y() - pair.camera.cy) / pair.camera.fy;
     last_points_.push_back(measureFlow(pair.camera, result, feature, sample));
+    if (result.keyframe_stamp_ns == result.prev_stamp_ns) {
+      sample.velocity_pxps = -sample.flow_px / dt_s;
+    }
     measureRow(pair, feature, sample);
     samples.samples.push_back(sample);
   }
@@ -91,15 +95,15 @@ void RigSampler::observe(const CheckedPair& pair) {
   last_ns_ = result.stamp_ns;
   last_dt_s_ = dt_s;
   last_twist_ = twist;
-  setVelocities(pair.camera, twist);
+  addVelocities(pair.camera, twist);
 }
 
-void RigSampler::setVelocities(const StereoCamera& camera, const Vector6d& twist) {
+void RigSampler::addVelocities(const StereoCamera& camera, const Vector6d& twist) {
   const Eigen::Vector3d right(camera.baseline_m, 0.0, 0.0);
   auto sample = pairs_.back().samples.begin();
   for (const Eigen::Vector3d& point : last_points_) {
     const Eigen::Vector3d velocity_mps = point.cross(twist.tail<3>()) - twist.head<3>();
-    (sample++)->velocity_pxps = pixelByPoint(camera, point - right) * velocity_mps;
+    (sample++)->velocity_pxps += pixelByPoint(camera, point - right) * velocity_mps;
   }
 }
 
@@ -114,6 +118,11 @@ void RigSampler::measureRow(const CheckedPair& pair,
   for (int i = 0; i < kSearches; ++i) {
     if (!tracker_.locate(pair.images.left, pair.images.right, left, right)) return;
   }
+  // What looks a little alike in the row where the search began is not found on the way back.
+  constexpr double kReturn = 0.3;  // over the detail
+  cv::Point2f back = left;
+  if (!tracker_.locate(pair.images.right, pair.images.left, right, back)) return;
+  if (cv::norm(back - left) > kReturn * std::exp2(pair.result.halvings)) return;
   sample.left_px = left;
   sample.row_px = right.y - left.y;
 }

@@ -19,7 +19,8 @@ Eigen::Vector3d measureFlow(const StereoCamera& camera,
                             const Correspondence& feature,
                             RigSample& sample);
 
-/// Measures features that agree with the motion in both images, of pairs that have moved.
+/// Measures the features of pairs that have moved. Those that do not agree with the motion count,
+/// too: they are the ones with the largest errors of a bad rig.
 class RigSampler {
  public:
   explicit RigSampler(const OdometryConfig& config)
@@ -30,8 +31,8 @@ class RigSampler {
   const std::vector<PairSamples>& pairs() const { return pairs_; }
 
  private:
-  /// Of the last samples, from the motion of the left camera per second.
-  void setVelocities(const StereoCamera& camera, const Vector6d& twist);
+  /// To the last samples, by the motion of the left camera per second.
+  void addVelocities(const StereoCamera& camera, const Vector6d& twist);
   void measureRow(const CheckedPair& pair, const Correspondence& feature, RigSample& sample);
 
   FeatureTracker tracker_;

@@ -81,22 +81,37 @@ void addNoise(cv::Mat& image, int seed) {
   cv::add(image, noise, image, {}, CV_8U);
 }
 
-/// Warps the right image as a rotation of its camera does.
-void turnRight(cv::Mat& right, const Eigen::Vector3d& rotation_rad) {
+/// Warps the right image: `source` is where a good camera sees what is seen at a place, both in
+/// normalized coordinates.
+void warpRight(cv::Mat& right,
+               const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& source) {
   const StereoCamera camera = perfectRig().camera;
-  RigCauses causes = {};
-  for (const std::size_t k : {kRoll, kPitch, kYaw}) causes[k] = -rotation_rad[Eigen::Index(k)];
-  const RigDisplacement displacement(camera, causes);
   cv::Mat places(right.size(), CV_32FC2);
   places.forEach<cv::Point2f>([&](cv::Point2f& place, const int* pixel) {
-    RigSample sample;
-    sample.x_right = (pixel[1] - camera.cx_right) / camera.fx;
-    sample.y = (pixel[0] - camera.cy) / camera.fy;
-    const Eigen::Vector2d moved_px = displacement.of(sample);
-    place.x = static_cast<float>(pixel[1] + moved_px.x());
-    place.y = static_cast<float>(pixel[0] + moved_px.y());
+    const Eigen::Vector2d at =
+        source({(pixel[1] - camera.cx_right) / camera.fx, (pixel[0] - camera.cy) / camera.fy});
+    place.x = static_cast<float>(camera.fx * at.x() + camera.cx_right);
+    place.y = static_cast<float>(camera.fy * at.y() + camera.cy);
   });
   cv::remap(right, right, places, {}, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+}
+
+void turnRight(cv::Mat& right, const Eigen::Vector3d& rotation_rad) {
+  RigCauses causes = {};
+  for (const std::size_t k : {kRoll, kPitch, kYaw}) causes[k] = rotation_rad[Eigen::Index(k)];
+  const Eigen::Matrix3d R = rotationOf(causes);
+  warpRight(right, [&](const Eigen::Vector2d& seen) -> Eigen::Vector2d {
+    return (R * seen.homogeneous()).hnormalized();
+  });
+}
+
+/// Radial distortion k1 that the right camera has too much.
+void distortRight(cv::Mat& right, double k1) {
+  warpRight(right, [&](const Eigen::Vector2d& seen) {
+    Eigen::Vector2d straight = seen;
+    for (int i = 0; i < 10; ++i) straight = seen / (1.0 + k1 * straight.squaredNorm());
+    return straight;
+  });
 }
 
 std::vector<Fault> faults() {
@@ -148,6 +163,11 @@ std::vector<Fault> faults() {
       [](CameraFaults& f) { f.right_focal_ratio = 1.003; },
       "focal length right to left",
       0.3);
+  images(
+      "lens",
+      [](cv::Mat&, cv::Mat& right) { distortRight(right, 0.1); },
+      "radial distortion left over on the right",
+      NAN);
   images(
       "gain",
       [](cv::Mat&, cv::Mat& right) { changeGray(right, 0.7, 0.0); },

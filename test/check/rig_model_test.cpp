@@ -142,6 +142,15 @@ TEST(RigModelTest, FindsSeveralCausesAtOnce) {
 }
 
 /// In a narrow image a pitch and an offset look alike.
+TEST(RigModelTest, RowsAreThoseOfTheDetail) {
+  RigCauses truth = {};
+  truth[kOffset] = 0.6;
+  StereoCamera sharp = camera(), soft = camera();
+  soft.detail_px = 2.0;
+  EXPECT_TRUE(modelOf(sharp, truth).exceeds(1.0, kOffset));
+  EXPECT_FALSE(modelOf(soft, truth).exceeds(1.0, kOffset)) << "a third of a row";
+}
+
 TEST(RigModelTest, SaysThatAnOffsetMayBeAPitch) {
   StereoCamera narrow = camera();
   narrow.fx = narrow.fy = 2000.0;
