@@ -24,8 +24,8 @@ def limit_table(limits, stresses, configs):
 
 def count_table(runs, configs):
     """Pairs of the stresses that images can show."""
-    header = ['configuration', 'runs', 'pairs', 'ok', 'degraded', 'lost', 'ok beyond 6 sigma', 'of 1000',
-              'of 1000 without trucks', 'by Mahalanobis distance']
+    header = ['configuration', 'runs', 'pairs', 'ok', 'degraded', 'lost', 'ok beyond 6 sigma', 'per 1000',
+              'per 1000, without trucks', 'beyond the limit, by Mahalanobis distance']
     rows = []
     for config in configs:
         of_config = [row for row in runs if row['config'] == config and row['stress'] not in UNSEEN]
