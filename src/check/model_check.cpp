@@ -187,7 +187,7 @@ bool addRowsOverTime(const StereoCamera& camera,
   return motion_px.value < std::max(kAcceptable * model.fix_rows_px, 0.5 * rows_px);
 }
 
-/// Returns whether a calibration can describe the bias: not if it moves by half of its mean.
+/// Returns whether a calibration can describe the bias: not if it moves for certain, by half of it.
 bool addBias(const StereoCamera& camera,
              const RigModel& model,
              const std::vector<Estimate>& course_px,

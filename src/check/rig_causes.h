@@ -23,7 +23,7 @@ enum RigCause {
   kTimeSkew,  ///< [s] how much later the right image is taken
   kBias,      ///< [px] principal point of the right image, how much further right
   kTwist,     ///< [rad] rows like those of a yaw, without its errors of disparities: of a lens
-  // Of both images; disparities and rows have hardly any errors of them:
+  // Of both images; only flows and, of kBothLenses, rows show them:
   kBothLenses,  ///< k1 that they have too much
   kBothX,       ///< [px] principal points, how much further right
   kBothY        ///< [px] how much lower
@@ -63,6 +63,7 @@ struct RigSample {
 struct PairSamples {
   double time_s = 0.0;
   double flow_noise_px = 1.0;
+  double applied_px = 0.0;  ///< bias of the disparities that flows are of
   std::vector<RigSample> samples;
 };
 
@@ -74,9 +75,10 @@ class RigDisplacement {
 
   /// How much further right, and lower, a feature is [px].
   Eigen::Vector2d of(const RigSample& sample) const {
-    // It is seen where the causes have moved it to.
-    const double further = from({sample.x_right, sample.y}, sample).x() / camera_.fx;
-    return from({sample.x_right - further, sample.y}, sample);
+    Eigen::Vector2d moved_px(0.0, 0.0);  // it is seen where the causes have moved it to
+    for (int i = 0; i < 3; ++i)
+      moved_px = from({sample.x_right - moved_px.x() / camera_.fx, sample.y}, sample);
+    return moved_px;
   }
 
  private:

@@ -116,16 +116,15 @@ RigCauses RigProblem::sigmas() const {
 std::vector<std::vector<Estimate>> RigProblem::courses(const std::vector<RigCause>& causes,
                                                        const Windows& windows) const {
   constexpr double kKnown = 0.1;  // of the prior
-  constexpr std::size_t kParts = 5;
   std::vector<std::vector<PairSamples>> parts(windows.count());
   for (const PairSamples& pair : pairs_) {
     const std::size_t w = windows.of(pair.time_s);
     parts[w].push_back(pair);
-    parts[w].back().time_s -= windows.middle_s(w) - windows.middle_s(0);
+    parts[w].back().time_s = static_cast<double>(parts[w].size() - 1);
   }
   std::vector<std::vector<Estimate>> courses(causes.size());
   for (const std::vector<PairSamples>& part : parts) {
-    RigProblem alone(camera_, part, Windows(2.0 * windows.middle_s(0), part.size(), kParts));
+    RigProblem alone(camera_, part, Windows(double(part.size()), part.size(), 5));
     alone.values = values;
     alone.is_of_turn = is_of_turn;
     alone.is_left_out_.fill(true);
@@ -133,9 +132,8 @@ std::vector<std::vector<Estimate>> RigProblem::courses(const std::vector<RigCaus
     alone.solve();
     const RigCauses sigmas = alone.sigmas();
     for (std::size_t k = 0; k < causes.size(); ++k) {
-      const RigCause cause = causes[k];
-      const bool is_known = sigmas[cause] < kKnown * kPriorSigmas[cause];
-      courses[k].push_back({alone.values[cause], is_known ? sigmas[cause] : INFINITY});
+      const double sigma = sigmas[causes[k]], known = kKnown * kPriorSigmas[causes[k]];
+      courses[k].push_back({alone.values[causes[k]], sigma < known ? sigma : INFINITY});
     }
   }
   return courses;
@@ -236,14 +234,15 @@ RigProblem::FlowResidual RigProblem::residualOf(
   axes.row(1) << -axes(0, 1), axes(0, 0);
   axes.row(0) /= noise_px * std::sqrt(1.0 + length * length);
   axes.row(1) /= noise_px;
-  const double damped = 1.0 / (1.0 + sample.damping_ppx * displaced_px);
+  const double error_px = displaced_px - pair.applied_px;
+  const double damped = 1.0 / std::max(1.0 + sample.damping_ppx * error_px, 0.2);
   Jacobian jacobian = damped * damped * sample.flow_by_disparity * by_values;
   for (int k = kBothLenses; k < kCauses; ++k) {
     if (!isLeftOut(k)) jacobian.col(k) = sample.flow_by_both.col(k - kBothLenses);
   }
   FlowResidual residual;
   residual << axes * sample.flow_by_motion, axes * jacobian,
-      axes * (sample.flow_px - damped * displaced_px * sample.flow_by_disparity -
+      axes * (sample.flow_px - damped * error_px * sample.flow_by_disparity -
               sample.flow_by_both * Eigen::Map<const Eigen::Vector3d>(&values[kBothLenses]));
   return residual;
 }

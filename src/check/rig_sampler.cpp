@@ -59,8 +59,7 @@ Eigen::Vector3d measureFlow(const StereoCamera& camera,
   sample.flow_by_both.rightCols<2>() =
       Eigen::Matrix2d::Identity() -
       by_ray * Eigen::Vector2d(1.0 / camera.fx, 1.0 / camera.fy).asDiagonal();
-  sample.flow_px =
-      feature.keyframe_px - camera.project(point) + applied_px * sample.flow_by_disparity;
+  sample.flow_px = feature.keyframe_px - camera.project(point);
   return depth_m * ray;
 }
 
@@ -73,7 +72,7 @@ void RigSampler::observe(const CheckedPair& pair) {
     addVelocities(pair.camera, last_dt_s_ / (dt_s + last_dt_s_) * (twist - last_twist_));
   }
   if (!pair.has_moved) return;
-  PairSamples samples = {pair.time_s, result.flow_noise_px, {}};
+  PairSamples samples = {pair.time_s, result.flow_noise_px, result.disparity_bias.applied_px, {}};
   last_points_.clear();
   tracker_.setDetail(std::exp2(result.halvings));
   const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPerPair);

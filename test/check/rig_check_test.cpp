@@ -50,6 +50,7 @@ struct Fault {
   RenderedRecording::Faults faults = {};
   std::vector<std::string> subjects = {};  ///< of the findings that name it
   std::vector<double> values = {};         ///< that they have; nan if it is none
+  double share = 0.0;                      ///< of a value that may be missing
 };
 
 void changeGray(cv::Mat& image, double gain, double offset) {
@@ -167,7 +168,8 @@ std::vector<Fault> faults() {
       "lens",
       [](cv::Mat&, cv::Mat& right) { distortRight(right, 0.1); },
       "radial distortion left over on the right",
-      NAN);
+      0.1);
+  all.back().share = 0.1;  // windows at the border are distorted themselves
   images(
       "gain",
       [](cv::Mat&, cv::Mat& right) { changeGray(right, 0.7, 0.0); },
@@ -314,7 +316,9 @@ TEST_P(RigFaultTest, IsNamedFirst) {
     EXPECT_NE(named->remedy, "");
     if (std::isnan(fault.values[i])) continue;
     const Estimate estimate = estimateOf(*named);
-    EXPECT_LE(std::abs(estimate.value - fault.values[i]), 3.0 * estimate.sigma) << named->measured;
+    EXPECT_LE(std::abs(estimate.value - fault.values[i]),
+              3.0 * estimate.sigma + fault.share * std::abs(fault.values[i]))
+        << named->measured;
     EXPECT_LT(estimate.sigma, 0.1 * std::abs(fault.values[i])) << "it is hardly known";
   }
   for (std::size_t i = fault.subjects.size(); i < findings.size(); ++i) {

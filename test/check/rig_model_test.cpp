@@ -48,7 +48,7 @@ PairSamples pairBy(const StereoCamera& camera,
   const Eigen::Vector3d turn = small(0.02), move = Eigen::Vector3d(0.0, 0.0, 0.05) + small(0.02);
   const Eigen::Isometry3d T = poseOf(turn, move);
   result.T_keyframe_cur.T = poseOf(turn + small(1e-4), move + small(2e-4));
-  PairSamples pair = {0.0, kNoise_px, {}};
+  PairSamples pair = {0.0, kNoise_px, 0.0, {}};
   const RigDisplacement displacement(camera, causes);
   for (int i = 0; i < 60; ++i) {
     Correspondence feature;
@@ -62,7 +62,12 @@ PairSamples pairBy(const StereoCamera& camera,
     const Eigen::Vector3d right(camera.baseline_m, 0.0, 0.0);
     sample.velocity_pxps =
         (camera.project(point - right) - camera.project(T * point - right)) / kPeriod_s;
-    const Eigen::Vector2d displaced_px = displacement.of(sample);
+    Eigen::Vector2d displaced_px(0.0, 0.0);
+    const double straight = sample.x_right;
+    for (int step = 0; step < 10; ++step) {  // it depends on where the feature is seen
+      displaced_px = displacement.of(sample);
+      sample.x_right = straight + displaced_px.x() / camera.fx;
+    }
     feature.keyframe_px += kNoise_px * Eigen::Vector2d(normal(generator), normal(generator));
     feature.disparity_px = disparity_px - displaced_px.x() + kNoise_px * normal(generator);
     sample.left_px =
@@ -141,7 +146,6 @@ TEST(RigModelTest, FindsSeveralCausesAtOnce) {
   }
 }
 
-/// In a narrow image a pitch and an offset look alike.
 TEST(RigModelTest, RowsAreThoseOfTheDetail) {
   RigCauses truth = {};
   truth[kOffset] = 0.6;
@@ -151,6 +155,7 @@ TEST(RigModelTest, RowsAreThoseOfTheDetail) {
   EXPECT_FALSE(modelOf(soft, truth).exceeds(1.0, kOffset)) << "a third of a row";
 }
 
+/// In a narrow image a pitch and an offset look alike.
 TEST(RigModelTest, SaysThatAnOffsetMayBeAPitch) {
   StereoCamera narrow = camera();
   narrow.fx = narrow.fy = 2000.0;
