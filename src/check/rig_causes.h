@@ -75,7 +75,7 @@ class RigDisplacement {
 
   /// How much further right, and lower, a feature is [px].
   Eigen::Vector2d of(const RigSample& sample) const {
-    Eigen::Vector2d moved_px(0.0, 0.0);  // it is seen where the causes have moved it to
+    Eigen::Vector2d moved_px(0.0, 0.0);  // a feature is seen where the causes have moved it to
     for (int i = 0; i < 3; ++i)
       moved_px = from({sample.x_right - moved_px.x() / camera_.fx, sample.y}, sample);
     return moved_px;

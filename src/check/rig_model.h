@@ -46,9 +46,8 @@ struct RigModel {
   bool exceeds(double limit, RigCause cause) const { return severity(cause).certain() > limit; }
 };
 
-/// Limits of effects. Matches are searched in rounded rows of the detail: a quarter of a row costs
-/// nothing; from half a row on, windows contain another row. Of disparities: the error of the scale
-/// at the typical one, when nobody corrects it. Below kAcceptable, of these, they cost nothing.
+/// Limits: from half a row of the detail on, windows contain another row; errors of the scale, if
+/// nobody corrects the disparities. Below kAcceptable, of these, they cost nothing.
 constexpr double kFixScale = 0.03;
 constexpr double kAcceptable = 0.3;
 

@@ -132,8 +132,9 @@ std::vector<std::vector<Estimate>> RigProblem::courses(const std::vector<RigCaus
     alone.solve();
     const RigCauses sigmas = alone.sigmas();
     for (std::size_t k = 0; k < causes.size(); ++k) {
-      const double sigma = sigmas[causes[k]], known = kKnown * kPriorSigmas[causes[k]];
-      courses[k].push_back({alone.values[causes[k]], sigma < known ? sigma : INFINITY});
+      const double sigma = sigmas[causes[k]];  // of one pair, there is no scatter
+      const bool is_known = part.size() > 1 && sigma < kKnown * kPriorSigmas[causes[k]];
+      courses[k].push_back({alone.values[causes[k]], is_known ? sigma : INFINITY});
     }
   }
   return courses;
@@ -235,7 +236,7 @@ RigProblem::FlowResidual RigProblem::residualOf(
   axes.row(0) /= noise_px * std::sqrt(1.0 + length * length);
   axes.row(1) /= noise_px;
   const double error_px = displaced_px - pair.applied_px;
-  const double damped = 1.0 / std::max(1.0 + sample.damping_ppx * error_px, 0.2);
+  const double damped = 1.0 / std::max(1.0 + sample.damping_ppx * error_px, 0.2);  // wrong matches
   Jacobian jacobian = damped * damped * sample.flow_by_disparity * by_values;
   for (int k = kBothLenses; k < kCauses; ++k) {
     if (!isLeftOut(k)) jacobian.col(k) = sample.flow_by_both.col(k - kBothLenses);

@@ -62,6 +62,8 @@ PairSamples pairBy(const StereoCamera& camera,
     const Eigen::Vector3d right(camera.baseline_m, 0.0, 0.0);
     sample.velocity_pxps =
         (camera.project(point - right) - camera.project(T * point - right)) / kPeriod_s;
+    sample.left_px =
+        cv::Point2f(static_cast<float>(feature.cur_px.x()), static_cast<float>(feature.cur_px.y()));
     Eigen::Vector2d displaced_px(0.0, 0.0);
     const double straight = sample.x_right;
     for (int step = 0; step < 10; ++step) {  // it depends on where the feature is seen
@@ -70,8 +72,6 @@ PairSamples pairBy(const StereoCamera& camera,
     }
     feature.keyframe_px += kNoise_px * Eigen::Vector2d(normal(generator), normal(generator));
     feature.disparity_px = disparity_px - displaced_px.x() + kNoise_px * normal(generator);
-    sample.left_px =
-        cv::Point2f(static_cast<float>(feature.cur_px.x()), static_cast<float>(feature.cur_px.y()));
     sample.x_right = (feature.cur_px.x() - feature.disparity_px - assumed.cx_right) / assumed.fx;
     measureFlow(assumed, result, feature, sample);
     sample.row_px = displaced_px.y() + kNoise_px * normal(generator);
