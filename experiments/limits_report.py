@@ -5,27 +5,24 @@ from matplotlib.patches import Patch
 from rotrocc_tools.plot_style import BLUE, FAINT, GREEN, TEXT, VERMILLION, YELLOW, legend, pyplot, save
 from stresses import LORRIES, UNSEEN
 
-ZONES = {'fine': ('fine', GREEN), 'degraded': ('degraded, and says so', YELLOW),
-         'wrong': ('wrong without saying so', VERMILLION)}
+ZONES = {'fine': ('fine', GREEN), 'degraded': ('degraded, and reported', YELLOW),
+         'wrong': ('silently wrong', VERMILLION)}
 ROW_IN = 0.42
 
 
 def limit_table(limits, stresses, configs):
-    """`limits`: {(configuration, stress): (fine to, wrong from)}"""
-    header = ['stress', 'levels'] + ['%s: %s' % (config, what) for config in configs
-                                     for what in ('fine to', 'wrong from')]
-    rows = []
-    for stress in stresses:
-        levels = '%g to %g %s' % (stress.levels[0], stress.levels[-1], stress.unit)
-        rows.append([stress.title, levels.strip(), *[text for config in configs
-                                                     for text in limits[config, stress.name]]])
-    return header, rows
+    """`limits`: {(configuration, stress): (last fine level, first wrong level)}"""
+    header = ['stress', 'unit', 'levels'] + ['%s: %s' % (config, what) for config in configs
+                                             for what in ('last fine level', 'first wrong level')]
+    return header, [[stress.title, stress.unit, '%g to %g' % (stress.levels[0], stress.levels[-1]),
+                     *[text for config in configs for text in limits[config, stress.name]]]
+                    for stress in stresses]
 
 
 def count_table(runs, configs):
     """Pairs of the stresses that images can show."""
-    header = ['configuration', 'runs', 'pairs', 'ok', 'degraded', 'lost', 'ok beyond 6 sigma', 'per 1000',
-              'per 1000, without trucks', 'beyond the limit, by Mahalanobis distance']
+    header = ['configuration', 'runs', 'pairs', 'ok', 'degraded', 'lost', 'ok, but off by more than 6 sigma',
+              'per 1000 ok pairs', 'per 1000 ok pairs, without trucks', 'ok, but a Mahalanobis distance above 6']
     rows = []
     for config in configs:
         of_config = [row for row in runs if row['config'] == config and row['stress'] not in UNSEEN]
@@ -73,7 +70,7 @@ def draw_stress(axes, y, stress, zones, configs):
 
 
 def draw(path, stresses, zones, configs):
-    """`zones`: {(configuration, stress): {rung: zone}}. Bars from above: the configurations."""
+    """`zones`: {(configuration, stress): {rung: zone}}. The bars of a stress, from top to bottom: the configurations."""
     figure, axes = pyplot.subplots(figsize=(9, ROW_IN * (len(stresses) + 2)))
     for row, stress in enumerate(stresses):
         draw_stress(axes, row, stress, zones, configs)
@@ -84,6 +81,6 @@ def draw(path, stresses, zones, configs):
     figure.subplots_adjust(left=0.27, right=0.93, top=1 - 1.1 * ROW_IN / figure.get_figheight(), bottom=0.01)
     legend(figure, handles=[Patch(color=color, label=text) for text, color in ZONES.values()], ncol=3,
            loc='upper left', bbox_to_anchor=(0.27, 1 - 0.15 * ROW_IN / figure.get_figheight()))
-    figure.text(0.27, top, 'bars from above: %s; numbers: the level from which' % ', '.join(configs),
+    figure.text(0.27, top, 'bars from top to bottom: %s; numbers: the level where a color starts' % ', '.join(configs),
                 fontsize=8.5, color=BLUE, va='top')
     save(figure, path)

@@ -109,7 +109,7 @@ def turn(axis):
 
 
 def swing(axis, amplitude_deg):
-    """Turning to and fro, by at most `level` [deg] per pair."""
+    """Turning back and forth, by at most `level` [deg] per pair."""
     return lambda drives, name, level, seed: drives.render(name, seed, turned=about(
         axis, amplitude_deg * numpy.sin(level / amplitude_deg * grown(drives.pairs))))
 
@@ -231,11 +231,11 @@ SHARES = list(range(5, 100, 5))
 
 STRESSES = [
     Stress('turn', 'turn rate', 'deg per pair', ladder(2, 32), turn('y')),
-    Stress('swing', 'turning to and fro', 'deg per pair', ladder(1, 24), swing('y', 25.0)),
+    Stress('swing', 'turning back and forth', 'deg per pair', ladder(1, 24), swing('y', 25.0)),
     Stress('pitch', 'nodding', 'deg per pair', ladder(0.5, 12), swing('x', 10.0)),
     Stress('roll', 'roll rate', 'deg per pair', ladder(2, 32), turn('z')),
-    Stress('step', 'step', '% of the median depth', ladder(4, 64), step),
-    Stress('each', 'frame rate', 'each n-th pair', [1, 2, 3, 4, 5, 6, 7, 8, 10, 12], each),
+    Stress('step', 'step length', '% of the median depth', ladder(4, 64), step),
+    Stress('each', 'frame rate', 'every n-th pair', [1, 2, 3, 4, 5, 6, 7, 8, 10, 12], each),
     Stress('dropped', 'pairs dropped', '%', [10, 20, 30, 40, 50, 60, 70, 80, 85, 90, 95], dropped),
     Stress('blur', 'motion blur', 'px', ladder(2, 25), blur),
     Stress('gain_step', 'exposure steps', 'factor', ladder(1.1, 40), worse(gain_steps)),
@@ -256,7 +256,7 @@ STRESSES = [
     Stress('lorry_across', 'a truck that changes lanes', '% of the image', SHARES,
            worse(lorry(1.0))),
     Stress('plain', 'no texture', '% of the image', SHARES, worse(plain)),
-    Stress('rows', 'right rows off', 'px', ladder(0.25, 16), rendered('--rows')),
+    Stress('rows', 'right images: row offset', 'px', ladder(0.25, 16), rendered('--rows')),
     Stress('skew', 'right image late', 'ms', ladder(1, 100), rendered('--time-skew', 1e-3)),
     Stress('focal', 'focal length too large', '%', ladder(0.25, 16), miscalibrated(FOCAL)),
     Stress('baseline', 'baseline too large', '%', ladder(0.25, 16), miscalibrated(BASELINE)),

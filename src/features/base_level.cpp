@@ -13,7 +13,7 @@ namespace {
 constexpr int kImages = 20;
 
 /// A level is soft below this sharpness. Of sharp cameras it is 0.7 to 1.3 (KITTI, Karlsruhe), of
-/// soft ones 0.35 to 0.54 (EuRoC, a rover, hand-held), of images at twice their size 0.2 to 0.33.
+/// soft ones 0.35 to 0.54 (EuRoC, a rover, handheld), of images at twice their size 0.2 to 0.33.
 constexpr double kSoft = 0.6;
 /// The next level has all of the details of one below this sharpness.
 constexpr double kEmpty = 0.22;
