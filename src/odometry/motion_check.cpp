@@ -112,7 +112,16 @@ std::optional<std::string> MotionCheck::whyLost(const Hypothesis& found,
          cv::format(", of %d in all: as many may by chance", found.counts.with_depth);
 }
 
-std::optional<std::string> MotionCheck::whyFewAgree(const Hypothesis& accepted) const {
+std::optional<std::string> MotionCheck::whyNotAtRest(const Hypothesis& accepted) {
+  const StageCounts& counts = accepted.counts;
+  const double share = static_cast<double>(counts.rotation_inliers) / counts.with_depth;
+  if (as_published_ || share >= kMinByRotation || !isAtRest(accepted)) return std::nullopt;
+  return "the camera seems to rest, but only a fraction of " + comparedText(share, kMinByRotation) +
+         cv::format(" of the features is still there, less than %g", kMinByRotation);
+}
+
+std::optional<std::string> MotionCheck::whyFewAgree(const Hypothesis& accepted) {
+  if (const auto why = whyNotAtRest(accepted)) return why;
   const MotionEstimate& estimate = accepted.estimate;
   const bool has_prediction = accepted.has_prediction;
   const double by_rotation = shareOf(estimate.rotation_inliers);

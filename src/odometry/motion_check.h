@@ -59,16 +59,21 @@ class MotionCheck {
   /// motion since the keyframe, including that of the rig's calibration, before inflation().
   std::optional<std::string> whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance);
 
-  /// Of the reasons of whyDegraded() the one that too few of the tracked features agree: there may
-  /// be a better start.
-  std::optional<std::string> whyFewAgree(const Hypothesis& accepted) const;
+  /// Why what seems to be rest may be none; none if it is not rest, or certain. At rest no feature
+  /// leaves the image: those of the keyframe that are not found again contradict, too. It may be
+  /// the rest of what lies over the scene, or of an earlier image that shows through.
+  std::optional<std::string> whyNotAtRest(const Hypothesis& accepted);
+
+  /// Of the reasons of whyDegraded() the one that too few of the features agree: there may be a
+  /// better start.
+  std::optional<std::string> whyFewAgree(const Hypothesis& accepted);
 
   /// Whether enough inliers are left for another motion against the same keyframe, which will have
   /// fewer.
   static bool hasReserve(const MotionEstimate& accepted);
 
-  /// Whether the camera rests at an accepted motion: the median inlier has moved by less than 10
-  /// times the noise of the flow. The noise of a motion is then a tenth of it, or more.
+  /// Whether the camera rests at an accepted motion: the median inlier has moved by less than 6
+  /// times the noise of the flow. The noise of a motion is then a sixth of it, or more.
   bool isAtRest(const Hypothesis& accepted);
 
   /// Why a motion during `dt_s` > 0 is an implausible jump; none if it is not. `expected` is the

@@ -30,19 +30,6 @@ constexpr double kConvincingShare = 0.25;
 /// more than this many times those that agree on the prediction.
 constexpr double kOverPrediction = 2.0;
 
-bool hasMinimumSupport(const Hypothesis& found) {
-  return found.isAccepted() &&
-         found.counts.rotation_inliers >= kConvincingShare * found.counts.with_depth;
-}
-
-/// Whether to prefer hypothesis `a`.
-bool isBetter(const Hypothesis& a, const Hypothesis& b) {
-  if (!b.isAccepted()) return true;
-  const bool b_is_likelier = b.has_prediction && !a.has_prediction && hasMinimumSupport(b);
-  const double factor = b_is_likelier ? kOverPrediction : 1.0;
-  return a.isAccepted() && a.counts.rotation_inliers > factor * b.counts.rotation_inliers;
-}
-
 std::unique_ptr<MotionEstimator> makeEstimator(const OdometryConfig& config) {
   config.check();
   if (config.isPaper()) return std::make_unique<PaperEstimator>(config.motion_estimator.criterion);
@@ -85,8 +72,22 @@ bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& fo
   return false;
 }
 
-bool MotionSearch::hasEnoughSupport(const Hypothesis& found) const {
+bool MotionSearch::hasMinimumSupport(const Hypothesis& found) {
+  return found.isAccepted() &&
+         found.counts.rotation_inliers >= kConvincingShare * found.counts.with_depth &&
+         !check_.whyNotAtRest(found);
+}
+
+bool MotionSearch::hasEnoughSupport(const Hypothesis& found) {
   return hasMinimumSupport(found) && !check_.whyFewAgree(found);
+}
+
+bool MotionSearch::isBetter(const Hypothesis& a, const Hypothesis& b) {
+  if (!b.isAccepted()) return true;
+  if (!a.isAccepted()) return false;
+  const bool b_is_likelier = b.has_prediction && !a.has_prediction && hasMinimumSupport(b);
+  const double factor = b_is_likelier ? kOverPrediction : 1.0;
+  return a.counts.rotation_inliers > factor * b.counts.rotation_inliers;
 }
 
 std::optional<MotionSearch::Start> MotionSearch::recognize(const Frames& frames) {

@@ -57,9 +57,14 @@ class MotionSearch {
   void calibrate(const Frames& frames, RigEstimate& rig, Hypothesis& found);
 
  private:
-  /// Whether a quarter of the keyframe's features agree on a motion, and as many of the tracked
-  /// ones as keep it from being degraded.
-  bool hasEnoughSupport(const Hypothesis& found) const;
+  /// Whether a quarter of the keyframe's features agree on a motion; more at rest.
+  bool hasMinimumSupport(const Hypothesis& found);
+
+  /// Whether as many of the tracked ones agree, too, as keep it from being degraded.
+  bool hasEnoughSupport(const Hypothesis& found);
+
+  /// Whether to prefer hypothesis `a`.
+  bool isBetter(const Hypothesis& a, const Hypothesis& b);
   void tryMotion(const Frames& frames,
                  const Start& start,
                  const std::optional<Eigen::Isometry3d>& prediction,

@@ -347,7 +347,8 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
   const Expectation expected = expectation(*current, others);
   setPrevious(*last_, result);
   const FramePtr keyframe = keyframe_.frame;
-  if (keyframe && keyframe != last_ && findMotionFrom(keyframe, *current, expected, result.times)) {
+  if (keyframe && keyframe != last_ && findMotionFrom(keyframe, *current, expected, result.times) &&
+      !check_.whyNotAtRest(found_)) {
     return;
   }
   if (findMotionFrom(last_, *current, expected, result.times) || !lost_) return;

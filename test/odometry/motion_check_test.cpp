@@ -242,6 +242,22 @@ TEST(MotionCheckTest, DistinguishesRestFromMotion) {
   EXPECT_TRUE(isAtRest(slow, 0.65)) << "relative to the noise";
 }
 
+/// No feature leaves the image at rest.
+TEST(MotionCheckTest, DoubtsARestThatFewOfTheKeyframesFeaturesShow) {
+  auto estimate = goodEstimate();
+  estimate.T_keyframe_cur = Eigen::Isometry3d::Identity();
+  Hypothesis accepted = hypothesis(estimate);
+  for (const bool is_at_rest : {true, false}) {
+    if (!is_at_rest) accepted = hypothesis(goodEstimate());
+    accepted.counts.with_depth = 428;  // 0.701
+    EXPECT_EQ(defaultCheck().whyNotAtRest(accepted), std::nullopt);
+    accepted.counts.with_depth = 430;  // 0.698
+    const char* share = is_at_rest ? "0.698" : nullptr;
+    expectSays(defaultCheck().whyNotAtRest(accepted), share, "less than 0.7");
+    expectSays(whyDegraded(accepted), share, "seems to rest");
+  }
+}
+
 TEST(MotionCheckTest, CallsAJumpDegraded) {
   const Eigen::Isometry3d expected = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
   UncertainTransform jump;

@@ -539,6 +539,32 @@ TEST(VisualOdometryTest, ATruckThatHidesNearlyAllIsNotFollowedSilently) {
   }
 }
 
+/// The camera turns too fast for the features of the scene to be followed, while the text that it
+/// draws into both images rests.
+TEST(VisualOdometryTest, WhatLiesOverTheSceneIsNoRest) {
+  const Eigen::Isometry3d step = motion({0.1, 0.0, 0.1}, {0.0, 0.15, 0.0});
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  VisualOdometry odometry({});
+  for (int i = 0; i < 4; ++i) {
+    const StereoPair pair = view(T_world_camera, i * kPeriod_ns);
+    for (int y = 12; y < camera().height; y += 26) {
+      for (const cv::Mat& image : {pair.left, pair.right}) {
+        cv::putText(image,
+                    "12:00:00 CAMERA 1 * 12:00:00 CAMERA 1 * 12:00:00 CAMERA 1",
+                    {5, y},
+                    cv::FONT_HERSHEY_PLAIN,
+                    1.0,
+                    255.0,
+                    1);
+      }
+    }
+    const OdometryResult result = odometry.process(pair, camera());
+    const double error_m = motionError(result.T_prev_cur, step).head<3>().norm();
+    EXPECT_TRUE(result.state != State::kOk || error_m < 0.01) << error_m << " m at pair " << i;
+    T_world_camera = T_world_camera * step;
+  }
+}
+
 /// The robot's own body fills the lower half of both images.
 TEST(VisualOdometryTest, MaskedBodyOfTheRobotIsNoFeature) {
   const cv::Rect body(0, camera().height / 2, camera().width, camera().height / 2);
