@@ -35,6 +35,9 @@ constexpr double kShortStep = 0.02;
 constexpr double kMinByRotation = 0.7;
 /// The same for a motion without a prediction, which nothing else confirms.
 constexpr double kMinAtStart = 0.8;
+/// Share of the features followed in the left image that the right one shows, too. It is 0.5 to
+/// 0.95 on real clips, as little as 0.1 if left and right are of different times.
+constexpr double kMinPaired = 0.5;
 /// Share of the feature set that are inliers of the translation stage. Those of far points with
 /// inexact disparities are missing, also if the motion is right.
 constexpr double kMinByTranslation = 0.5;
@@ -122,6 +125,12 @@ std::optional<std::string> MotionCheck::whyNotAtRest(const Hypothesis& accepted)
 
 std::optional<std::string> MotionCheck::whyFewAgree(const Hypothesis& accepted) {
   if (const auto why = whyNotAtRest(accepted)) return why;
+  const StageCounts& counts = accepted.counts;
+  if (!as_published_ && counts.consistent < kMinPaired * counts.tracked) {
+    return cv::format(
+               "the right image shows %d of the %d features", counts.consistent, counts.tracked) +
+           cv::format(" followed in the left one, a fraction of less than %g", kMinPaired);
+  }
   const MotionEstimate& estimate = accepted.estimate;
   const bool has_prediction = accepted.has_prediction;
   const double by_rotation = shareOf(estimate.rotation_inliers);

@@ -258,6 +258,16 @@ TEST(MotionCheckTest, DoubtsARestThatFewOfTheKeyframesFeaturesShow) {
   }
 }
 
+/// Left and right may be of different times otherwise.
+TEST(MotionCheckTest, WantsHalfOfTheTrackedFeaturesInBothImages) {
+  Hypothesis accepted = hypothesis(goodEstimate());
+  accepted.counts.consistent = 400;
+  accepted.counts.tracked = 800;
+  EXPECT_EQ(whyDegraded(accepted), std::nullopt);
+  accepted.counts.tracked = 801;
+  expectSays(whyDegraded(accepted), "400 of the 801", "less than 0.5");
+}
+
 TEST(MotionCheckTest, CallsAJumpDegraded) {
   const Eigen::Isometry3d expected = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
   UncertainTransform jump;
