@@ -14,17 +14,13 @@ constexpr std::size_t kMinFeatures = 4;
 /// As many determine the motion that most agree on; all of them take several times as long.
 constexpr std::size_t kMaxFeatures = 200;
 
-/// At most, of three features each: with half of the features wrong, one of 35 is expected to be
-/// the first without an outlier in 99 % of all cases; depths of far features are too inexact for
-/// most.
-constexpr int kSamples = 1000;
 constexpr double kConfidence = 0.999;
 
 }  // namespace
 
 std::optional<Eigen::Isometry3d> consensusMotion(const StereoCamera& camera,
                                                  const Correspondences& features,
-                                                 double tolerance) {
+                                                 const ConsensusLimits& limits) {
   if (features.size() < kMinFeatures) return std::nullopt;
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> pixels;
@@ -44,8 +40,8 @@ std::optional<Eigen::Isometry3d> consensusMotion(const StereoCamera& camera,
                                         rotation,
                                         translation,
                                         false,
-                                        kSamples,
-                                        static_cast<float>(camera.detail_px * tolerance),
+                                        limits.samples,
+                                        static_cast<float>(camera.detail_px * limits.tolerance),
                                         kConfidence,
                                         cv::noArray(),
                                         cv::SOLVEPNP_P3P);

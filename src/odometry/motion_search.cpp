@@ -19,9 +19,6 @@ constexpr double kCalibrationSettled_px = 0.02;
 /// other starts none.
 constexpr int kMaxSteps = 3;
 
-/// Errors of descriptors, which are taken from images of up to half the size, in details.
-constexpr double kRecognitionTolerance = 3.0;
-
 /// A smaller share of the keyframe's features may agree by chance, or be those of an object: there
 /// may be a better start.
 constexpr double kConvincingShare = 0.25;
@@ -94,7 +91,7 @@ std::optional<MotionSearch::Start> MotionSearch::recognize(const Frames& frames)
   const StageTimer timer(frames.times.tracking_ms);
   const Correspondences seen =
       matchDescriptors(frames.camera, frames.keyframe, frames.current, matcher_);
-  const auto T_keyframe_cur = consensusMotion(frames.camera, seen, kRecognitionTolerance);
+  const auto T_keyframe_cur = consensusMotion(frames.camera, seen, kOfRecognized);
   if (!T_keyframe_cur) return std::nullopt;
   return Start{*T_keyframe_cur, false};
 }
