@@ -15,9 +15,9 @@ struct ConsensusLimits {
 };
 
 /// Of tracked features: about the limit of stage 1, twice as much confuses a slow motion with that
-/// of an object ahead. One of 300 samples is without an outlier in 99 % of all cases if a quarter
-/// of the features agree; a motion of fewer does not convince.
-constexpr ConsensusLimits kOfTracked = {0.7, 300};
+/// of an object ahead. One of 500 samples is without an outlier in 98 % of all cases if a fifth of
+/// the features agree; a motion of fewer does not convince.
+constexpr ConsensusLimits kOfTracked = {0.7, 500};
 /// Of features matched by descriptors, which are taken from images of up to half the size. Fewer
 /// agree, and the depths of most are too inexact.
 constexpr ConsensusLimits kOfRecognized = {3.0, 1000};
