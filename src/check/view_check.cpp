@@ -22,7 +22,7 @@ constexpr int kColumns = 2 * kMapColumns;
 constexpr int kLeastPairs = 10;
 
 /// Most features that agree, as a share, in a cell of a map that does not agree.
-constexpr double kMostAgreeing = 0.15;
+constexpr float kMostAgreeing = 0.15F;
 
 std::string percent(double share) {
   return toText(std::lround(100.0 * share)) + " %";
@@ -38,19 +38,21 @@ class ViewCheck : public PairCheck {
     camera_ = pair.camera;
     const ImageGrid grid = mapOf(camera_.width, camera_.height, kColumns);
     if (features_.empty()) {
-      for (cv::Mat_<float>* map : {&features_, &inliers_, &still_})
+      for (cv::Mat_<float>* map : {&features_, &inliers_, &still_, &agreeing_})
         *map = cv::Mat_<float>::zeros(grid.size());
     }
     ++pairs_;
     corners_ += pair.result.counts.corners;
     with_depth_ += pair.result.counts.with_depth;
-    compareWithLast(pair, grid);
+    const bool moves_apart = compareWithLast(pair, grid);
     if (!pair.result.hasMotion()) return;
     for (std::size_t i = 0; i < pair.features.size(); ++i) {
       const Eigen::Vector2d& pixel = pair.features[i].cur_px;
       const auto cell = static_cast<int>(grid.cell(pixel.x(), pixel.y()));
       features_(cell) += 1.0F;
-      if (pair.inliers[i] != 0) inliers_(cell) += 1.0F;
+      const float inlier = pair.inliers[i] != 0 ? 1.0F : 0.0F;
+      inliers_(cell) += inlier;
+      if (moves_apart) agreeing_(cell) += inlier - kMostAgreeing;
     }
   }
 
@@ -61,8 +63,9 @@ class ViewCheck : public PairCheck {
   }
 
  private:
-  /// Counts the cells with texture that stay as they are while others change.
-  void compareWithLast(const CheckedPair& pair, const ImageGrid& grid) {
+  /// Counts the cells with texture that stay as they are while others change. Returns whether there
+  /// are any, and the motion is that of the others.
+  bool compareWithLast(const CheckedPair& pair, const ImageGrid& grid) {
     constexpr double kOfDifference = 1.13;  // its mean size over the deviation of one image
     constexpr float kOverNoise = 2.0F;      // texture, and changes
     constexpr double kStill = 0.15;         // over texture, a change beyond noise
@@ -70,7 +73,7 @@ class ViewCheck : public PairCheck {
     constexpr double kStill_px = 0.5;
     const cv::Mat& image = pair.images.left;
     cv::Mat last = std::exchange(last_, image.clone());
-    if (last.empty()) return;
+    if (last.empty()) return false;
     cv::Mat difference;
     last.convertTo(last, CV_8U, cv::mean(image)[0] / std::max(cv::mean(last)[0], 1.0));
     cv::absdiff(image, last, difference);
@@ -82,10 +85,10 @@ class ViewCheck : public PairCheck {
     const cv::Mat moved = kStill * textures;
     const cv::Mat still = textured & (changes.mul(changes) < moved.mul(moved) + noise * noise);
     const int changing = cv::countNonZero(textured & ~still & (changes >= kOverNoise * noise));
-    if (changing == 0 || changing < kChanging * cv::countNonZero(textured)) return;
+    if (changing == 0 || changing < kChanging * cv::countNonZero(textured)) return false;
     ++changing_pairs_;
-    if (pair.result.hasMotion() && pair.flow_px < kStill_px) ++resting_pairs_;
     cv::add(still_, 1.0, still_, still);
+    return pair.flow_px >= kStill_px;
   }
 
   void addDisparities(RigReport& report) const {
@@ -137,14 +140,11 @@ class ViewCheck : public PairCheck {
     cv::resize(cells, report.mask, {camera_.width, camera_.height}, 0, 0, cv::INTER_NEAREST);
   }
 
-  /// Cells that stand still while the rest changes, one pixel each, and whose
-  /// features do not agree with the motion, unless that is theirs. Single ones are not the robot.
+  /// Cells that stand still while the rest changes, one pixel each, and whose features do not agree
+  /// with the motion of the rest. Single ones are not the robot.
   cv::Mat standingStill() const {
     if (changing_pairs_ < kLeastPairs) return cv::Mat::zeros(still_.size(), CV_8UC1);
-    cv::Mat cells = still_ > 0.5 * changing_pairs_;
-    const bool follows_robot =
-        2 * resting_pairs_ > changing_pairs_ && resting_pairs_ >= kLeastPairs;
-    if (!follows_robot) cells &= inliers_ <= kMostAgreeing * features_;
+    const cv::Mat cells = (still_ > 0.5 * changing_pairs_) & (agreeing_ <= 0.0F);
     const cv::Mat plus = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
     cv::Mat closed;
     cv::morphologyEx(cells, closed, cv::MORPH_CLOSE, plus, {-1, -1}, 1, cv::BORDER_REPLICATE);
@@ -155,9 +155,9 @@ class ViewCheck : public PairCheck {
   cv::Mat_<float> features_, inliers_;  // in each cell
   cv::Mat_<float> still_;               // pairs in which a cell stays as it is, while others change
   cv::Mat last_;                        // left image
-  int changing_pairs_ = 0, resting_pairs_ = 0;  // whose images change; of these, without a motion
-  int pairs_ = 0;
-  int corners_ = 0, with_depth_ = 0;
+  cv::Mat_<float> agreeing_;  // features in motion that agree beyond kMostAgreeing of them
+  int changing_pairs_ = 0;    // whose images change
+  int pairs_ = 0, corners_ = 0, with_depth_ = 0;
 };
 
 }  // namespace

@@ -258,8 +258,8 @@ std::vector<Fault> faults() {
                    addBumper(left, right, 8);
                    turnRight(right, {0.3 * kRadians, 0.0, 0.0});
                  }),
-                 {kMasked},
-                 {NAN}});
+                 {kMasked, "roll of the right camera"},
+                 {NAN, 0.3}});
   Fault sign = {"sign", [](SimulationOptions&) {}, {}, {"pairs"}, {NAN}};
   sign.faults.info = [](sensor_msgs::CameraInfo& right) { right.P[3] = -right.P[3]; };
   all.push_back(sign);
