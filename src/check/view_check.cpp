@@ -63,8 +63,8 @@ class ViewCheck : public PairCheck {
   }
 
  private:
-  /// Counts the cells with texture that stay as they are while others change. Returns whether there
-  /// are any, and the motion is that of the others.
+  /// Counts the cells with texture that stay as they are while others change. Returns whether
+  /// others change, and the motion is theirs.
   bool compareWithLast(const CheckedPair& pair, const ImageGrid& grid) {
     constexpr double kOfDifference = 1.13;  // its mean size over the deviation of one image
     constexpr float kOverNoise = 2.0F;      // texture, and changes

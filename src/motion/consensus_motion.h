@@ -9,6 +9,7 @@
 
 namespace rotrocc {
 
+/// When features agree on a motion, and how many motions are tried.
 struct ConsensusLimits {
   double tolerance;  ///< of reprojection errors, in details of the images [camera.detail_px]
   int samples;       ///< of three features each, at most

@@ -35,7 +35,7 @@ constexpr double kShortStep = 0.02;
 constexpr double kMinByRotation = 0.7;
 /// The same for a motion without a prediction, which nothing else confirms.
 constexpr double kMinAtStart = 0.8;
-/// Share of the features followed in the left image that the right one shows, too. It is 0.5 to
+/// Share of the features tracked in the left image that the right one shows, too. It is 0.5 to
 /// 0.95 on real clips, as little as 0.1 if left and right are of different times.
 constexpr double kMinPaired = 0.5;
 /// Share of the feature set that are inliers of the translation stage. Those of far points with
@@ -119,8 +119,9 @@ std::optional<std::string> MotionCheck::whyNotAtRest(const Hypothesis& accepted)
   const StageCounts& counts = accepted.counts;
   const double share = static_cast<double>(counts.rotation_inliers) / counts.with_depth;
   if (as_published_ || share >= kMinByRotation || !isAtRest(accepted)) return std::nullopt;
-  return "the camera seems to rest, but only a fraction of " + comparedText(share, kMinByRotation) +
-         cv::format(" of the features is still there, less than %g", kMinByRotation);
+  return "the camera seems stationary, but only a fraction of " +
+         comparedText(share, kMinByRotation) +
+         cv::format(" of the keyframe's features is found again, less than %g", kMinByRotation);
 }
 
 std::optional<std::string> MotionCheck::whyFewAgree(const Hypothesis& accepted) {
@@ -129,7 +130,7 @@ std::optional<std::string> MotionCheck::whyFewAgree(const Hypothesis& accepted) 
   if (!as_published_ && counts.consistent < kMinPaired * counts.tracked) {
     return cv::format(
                "the right image shows %d of the %d features", counts.consistent, counts.tracked) +
-           cv::format(" followed in the left one, a fraction of less than %g", kMinPaired);
+           cv::format(" tracked in the left one, a fraction of less than %g", kMinPaired);
   }
   const MotionEstimate& estimate = accepted.estimate;
   const bool has_prediction = accepted.has_prediction;

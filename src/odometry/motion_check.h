@@ -59,9 +59,10 @@ class MotionCheck {
   /// motion since the keyframe, including that of the rig's calibration, before inflation().
   std::optional<std::string> whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance);
 
-  /// Why what seems to be rest may be none; none if it is not rest, or certain. At rest no feature
-  /// leaves the image: those of the keyframe that are not found again contradict, too. It may be
-  /// the rest of what lies over the scene, or of an earlier image that shows through.
+  /// Why a camera that seems stationary may be moving; none if it moves, or is certainly
+  /// stationary. A stationary camera loses no feature: those of the keyframe that are not found
+  /// again contradict, too. The others may belong to an overlay, or to an earlier image that shows
+  /// through.
   std::optional<std::string> whyNotAtRest(const Hypothesis& accepted);
 
   /// Of the reasons of whyDegraded() the one that too few of the features agree: there may be a

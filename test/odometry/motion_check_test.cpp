@@ -254,7 +254,7 @@ TEST(MotionCheckTest, DoubtsARestThatFewOfTheKeyframesFeaturesShow) {
     accepted.counts.with_depth = 430;  // 0.698
     const char* share = is_at_rest ? "0.698" : nullptr;
     expectSays(defaultCheck().whyNotAtRest(accepted), share, "less than 0.7");
-    expectSays(whyDegraded(accepted), share, "seems to rest");
+    expectSays(whyDegraded(accepted), share, "seems stationary");
   }
 }
 
