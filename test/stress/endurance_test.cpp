@@ -139,6 +139,12 @@ class Drive {
   const Pair& lastSent() const { return sent_; }
   std::size_t pairs() const { return pairs_; }
 
+  /// Whether a warning or an error since the last takeLog() has a text.
+  bool hasLogged(const std::string& text) const {
+    return std::any_of(log_.begin(), log_.end(), [&](const std::string& line) {
+      return line.find(text) != std::string::npos;
+    });
+  }
   /// Warnings and errors since the last call.
   std::vector<std::string> takeLog() { return std::exchange(log_, {}); }
 
@@ -285,7 +291,7 @@ Drive::Change ofPair(const std::function<void(Pair&)>& change) {
   return [=](Drive&, Pair& pair) { change(pair); };
 }
 
-/// How long a fault lasts, and the valid pairs after it.
+/// How long a fault lasts at least, and the valid pairs after it.
 struct Span {
   int pairs;
   double rest_s;
@@ -370,9 +376,16 @@ bool hasOneOf(const std::string& line, const std::vector<std::string>& parts) {
   });
 }
 
-/// Makes a fault, and returns what the log says of it.
+/// Makes a fault, and returns what the log says of it. A fault that lasts ends when it is reported:
+/// a busy machine takes longer to find its cause.
 std::vector<std::string> make(const Fault& fault, Drive& drive) {
   for (int i = 0; i < fault.span.pairs; ++i) drive.send(fault.change);
+  waitUntil([&] {
+    const bool is_done =
+        fault.says.empty() || fault.span.pairs == 1 || drive.hasLogged(fault.says.front());
+    if (!is_done) drive.send(fault.change);
+    return is_done;
+  });
   if (!fault.change) drive.publishMount(0.0);
   EXPECT_TRUE(drive.recover());
   const ros::Time end = ros::Time::now() + ros::Duration(fault.span.rest_s);
