@@ -38,19 +38,21 @@ bool isBetter(const RigModel& model) {
 /// Why there is no correction; empty if there may be one.
 std::string whyNone(const RigMeasures& measures) {
   if (measures.moving_pairs < kLeastMotions) {
-    return "features have moved in fewer than " + toText(kLeastMotions) +
+    return "features moved in fewer than " + toText(kLeastMotions) +
            " pairs: record a minute of motion";
   }
-  if (!measures.is_known) return "the pairs or their rectification are wrong: fix that first";
+  if (!measures.is_known)
+    return "the images are not stereo pairs, or not rectified: fix that first";
   if (!measures.rest.is_constant)
-    return "rows or disparities move: no calibration describes a rig that bends";
+    return "rows or disparities change over time: no calibration fits a rig that bends";
   if (hasErrors(measures.model)) {
     if (isBetter(measures.model)) return "";
-    return "it does not improve the fit in parts of the recording that it was not estimated from";
+    return "it does not improve the fit on held-out parts of the recording";
   }
-  if (!measures.model.exceeds(1.0, kBias)) return "rows and disparities have no error to be fixed";
-  return "the images do not show which of two causes it is, and a correction of the wrong one "
-         "would be no better: drive where features fill the image";
+  if (!measures.model.exceeds(1.0, kBias))
+    return "rows and disparities have no error that needs fixing";
+  return "the images do not show which of two causes it is, and correcting the wrong one would not "
+         "help: drive where features fill the image";
 }
 
 /// The calibration that makes rows equal and disparities right. The right camera takes all of it:

@@ -59,9 +59,9 @@ class DetailCheck : public PairCheck {
       const Estimate blocks = overWindows(blocks_[side], windows);
       report.add({"photometry",
                   side == 0 ? "compression, left" : "compression, right",
-                  "edges of blocks are " + toText(blocks * 100.0, "%") + " stronger",
+                  "block edges are " + toText(blocks * 100.0, "%") + " stronger",
                   "block corners are detected instead of scene corners",
-                  "raise the quality of the compression, or record raw images"},
+                  "raise the compression quality, or record uncompressed images"},
                  {blocks, kStrong, 1.0});
       // What is near is elsewhere in the other image, which has such parts, too.
       const bool is_near = !report.mask.empty() || cv::countNonZero(blurredParts(1 - side)) > 0;
@@ -93,10 +93,10 @@ class DetailCheck : public PairCheck {
       measured += ", around x " + toText(std::lround(x)) + ", y " + toText(std::lround(y));
     }
     report.add({"photometry",
-                "parts with less than half of the detail, " + name,
+                "regions with less than half the detail, " + name,
                 measured,
-                "features there have no disparity, or a wrong one",
-                "clean the " + name + " lens, and look for what is in front of it"},
+                "features there have no disparity or a wrong one",
+                "clean the " + name + " lens, and remove what is in front of it"},
                {{share}, 0.01, 0.025});
   }
 

@@ -72,20 +72,21 @@ class GyroCheck : public PairCheck {
     }
     const Eigen::VectorXd sigmas = jackknifeSigmas(without);
     report.add({"time",
-                "stamps of the images against the gyroscope",
+                "image timestamps against the gyroscope",
                 toText(Estimate{1e3 * all.delay_s, 1e3 * sigmas[0]}, "ms") +
-                    " to be added to those of images",
-                "a turn of 50 deg/s is predicted " + fixedText(50.0 * std::abs(all.delay_s), 2) +
-                    " deg wrong",
+                    " to be added to the image timestamps",
+                "at 50 deg/s, the predicted rotation is off by " +
+                    fixedText(50.0 * std::abs(all.delay_s), 2) + " deg",
                 "correct the driver's timestamps, or trigger both from one clock"},
                {{all.delay_s, sigmas[0]}, 0.005, 0.02});
     const double angle = Eigen::AngleAxisd(R_camera_gyro_ * all.R_camera_gyro.transpose()).angle();
     const double angle_sigma = sigmas.tail<3>().norm();
     const Eigen::Quaterniond q(all.R_camera_gyro);
     report.add({"time",
-                "axes of the gyroscope against tf",
+                "gyroscope axes against tf",
                 toText(Estimate{angle * kDegrees, angle_sigma * kDegrees}, "deg") +
-                    " apart; from gyroscope to left camera by the images: qx qy qz qw " +
+                    " apart; rotation from gyroscope to left camera according to the images: qx qy "
+                    "qz qw " +
                     fixedText(q.x(), 5) + " " + fixedText(q.y(), 5) + " " + fixedText(q.z(), 5) +
                     " " + fixedText(q.w(), 5),
                 "rotations are predicted about the wrong axis",

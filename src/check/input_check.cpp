@@ -45,7 +45,7 @@ void InputCheck::report(const StereoCamera& camera,
   report.add({"inputs",
               "baseline",
               fixedText(camera.baseline_m, 4) + " m",
-              "all lengths are as wrong as it is",
+              "all lengths are wrong by the same factor",
               baseline},
              kToLookAt);
 }
@@ -71,7 +71,7 @@ void InputCheck::reportStreams(double max_apart_s, RigReport& report) const {
     report.add({"inputs",
                 right ? "right images" : "left images",
                 measured,
-                "motions across gaps are longer, so more of them are lost, most of all in turns",
+                "motions across gaps are longer, so more of them are lost, especially in turns",
                 "look for frames lost by the driver, the USB or network link, or the recorder"},
                {{lost / static_cast<double>(stamps_ns.size())}, 0.01, 0.1});
   }
@@ -108,25 +108,25 @@ void InputCheck::addStamps(double max_apart_s, RigReport& report) const {
   const bool is_recorded = largest_s != 0.0 || has_ages;
   report.add(
       {"inputs",
-       "stamps of left minus right",
+       "left minus right timestamps",
        is_recorded
            ? fixedText(1e3 * typical_s, 2) + " ms, at most " + fixedText(1e3 * largest_s, 2) + " ms"
-           : "not recorded: both have one stamp",
-       "images of different times are not a pair: moving objects get wrong depths",
-       "trigger both cameras by one signal, and take its time for both stamps; if the images are "
-       "of the same time, correct the stamps, or set `max_stamp_difference_s`"},
+           : "not recorded: each pair has a single timestamp",
+       "images from different times are not a pair: moving objects get wrong depths",
+       "trigger both cameras with one signal, and use its time for both timestamps; if the images "
+       "were taken at the same time, correct the timestamps, or set `max_stamp_difference_s`"},
       {{is_recorded ? typical_s : NAN},
        kAcceptable * period_s,
        std::min(kFix * period_s, max_apart_s)});
   if (!has_ages) return;
   report.add(
       {"inputs",
-       "arrival after the stamp",
+       "arrival delay",
        fixedText(1e3 * age_s, 0) + " ms",
        "odometry and tf arrive that much later",
-       age_s > 0.0 ? "synchronize the clocks of camera and computer, and look for what delays "
-                     "the images"
-                   : "timestamps are in the future: synchronize the clocks of camera and computer"},
+       age_s > 0.0
+           ? "synchronize the clocks of camera and computer, and find out what delays the images"
+           : "timestamps are in the future: synchronize the clocks of camera and computer"},
       {{age_s}, 0.3, 1.0});
 }
 

@@ -35,10 +35,10 @@ constexpr CauseText kCauseTexts[] = {
     {kRoll, "roll of the right camera", "deg", kDegrees},
     {kPitch, "pitch of the right camera", "deg", kDegrees},
     {kYaw, "yaw of the right camera", "deg", kDegrees},
-    {kTwist, "rows alone like those of a yaw", "deg", kDegrees},
-    {kFocal, "focal length right to left", "%", 100.0},
+    {kTwist, "errors that look like a yaw, in the rows alone", "deg", kDegrees},
+    {kFocal, "focal length of the right camera relative to the left", "%", 100.0},
     {kOffset, "row of the right principal point", "px", 1.0},
-    {kLens, "radial distortion left over on the right", "(k1)", 1.0},
+    {kLens, "residual radial distortion of the right lens", "(k1)", 1.0},
 };
 
 /// What a shift in the middle of the image may be instead; empty if it is not.
@@ -70,32 +70,32 @@ void addCauses(const StereoCamera& camera, const RigModel& model, RigReport& rep
     // What nobody can say the cause of is not to be fixed.
     const double fix = is_shape ? std::numeric_limits<double>::infinity() : 1.0;
     report.add({"rows",
-                is_shape ? "errors like those of a " +
+                is_shape ? "errors that look like a " +
                                std::string(text.subject, text.cause == kYaw ? 3 : 5)
                          : text.subject,
                 measured,
-                "features are lost beyond half a row, and disparity errors change depths: the "
-                "typical disparity is " +
+                "row errors above half a pixel cost features, and disparity errors distort depths: "
+                "the typical disparity is " +
                     fixedText(model.typical_disparity_px, 0) + " px",
                 is_of_lens ? kOtherLens : kCalibrate},
                {model.severity(text.cause), kAcceptable, fix});
   }
   const Estimate both = model.severity(kBothLenses);
   report.add({"rows",
-              "radial distortion left over in both images",
+              "residual radial distortion of both lenses",
               toText(model.value(kBothLenses), "(k1)") + ", " +
-                  fixedText(100.0 * kFixScale * both.value, 1) + " % of depths and angles",
-              "scale and turns depend on where in the image features are",
+                  fixedText(100.0 * kFixScale * both.value, 1) + " % error of depths and angles",
+              "scale and rotation depend on where in the image the features are",
               kOtherLens},
              {both, kAcceptable, 1.0});
   const Estimate skew_s = model.value(kTimeSkew);
   const Estimate shift_px = skew_s * (10.0 / kDegrees * camera.fx);
   report.add({"time",
-              "right images against left ones",
-              toText(skew_s * 1e3, "ms") + " later",
+              "delay of the right images",
+              toText(skew_s * 1e3, "ms"),
               "disparities are wrong by " + fixedText(std::abs(shift_px.value), 2) +
-                  " px when the rig turns by 10 deg/s",
-              "trigger both cameras by the same signal, and give both the same exposure time"},
+                  " px when the rig turns at 10 deg/s",
+              "trigger both cameras with the same signal, and give both the same exposure time"},
              {shift_px, kAcceptable * model.fix_rows_px, model.fix_rows_px});
 }
 
@@ -140,10 +140,10 @@ void addRows(const StereoCamera& camera,
   const double left_px = std::sqrt(std::max(square_px2, 0.0));
   rest.unexplained_px = {left_px, sigma_px2 / std::max(2.0 * left_px, std::sqrt(sigma_px2))};
   report.add({"rows",
-              "row differences that none of these explains",
+              "unexplained row differences",
               toText(rest.unexplained_px, "px") + " of " + fixedText(rest.rows_px, 2) +
                   " px (rms over the image)",
-              "smooth errors of the lenses",
+              "the lenses have errors of another shape",
               kOtherLens},
              {rest.unexplained_px, 2.0 * kAcceptable * model.fix_rows_px, model.fix_rows_px});
 }
@@ -180,8 +180,8 @@ bool addRowsOverTime(const StereoCamera& camera,
                               std::hypot(middle.sigma, in_x.sigma, in_y.sigma)};
   report.add({"rows",
               kRowsOverTime,
-              "move by " + fixedText(motion_px.value, 2) + " px (rms)",
-              "no calibration fits a rig that moves",
+              "vary by " + fixedText(motion_px.value, 2) + " px (rms)",
+              "no calibration fits a rig that bends",
               "mount both cameras on one stiff bar, and fix lenses and connectors"},
              {motion_px, kAcceptable * model.fix_rows_px, model.fix_rows_px});
   return motion_px.value < std::max(kAcceptable * model.fix_rows_px, 0.5 * rows_px);
@@ -201,18 +201,20 @@ bool addBias(const StereoCamera& camera,
       motion_px.value < std::max(kFixScale * typical_px, 0.5 * std::abs(bias_px.value));
   if (!lasts) bias_px.sigma = std::hypot(bias_px.sigma, motion_px.value);
   const double at_10_m = 10.0 * bias_px.value / (camera.fx * camera.baseline_m);
+  report.add(
+      {"disparities",
+       "disparity bias",
+       "disparities are " + toText(bias_px.value < 0.0 ? bias_px * -1.0 : bias_px, "px too ") +
+           (bias_px.value < 0.0 ? "large" : "small") + orTurn(camera, model, kBias) +
+           "; depths of 10 m are off by " + fixedText(100.0 * at_10_m, 1) + " %",
+       "without a correction " + fixedText(std::abs(100.0 * bias_px.value / typical_px), 1) +
+           " m in 100 m, at the disparity of the mean depth, " + fixedText(typical_px, 1) +
+           " px; the odometry corrects " + fixedText(applied_px, 2) + " px of it",
+       kCalibrate},
+      {bias_px * (1.0 / typical_px), kAcceptable * kFixScale, kFixScale});
   report.add({"disparities",
-              "bias of the disparities",
-              toText(bias_px, "px") + " are missing" + orTurn(camera, model, kBias) +
-                  "; depths of 10 m are wrong by " + fixedText(100.0 * at_10_m, 1) + " %",
-              "without a correction " + fixedText(std::abs(100.0 * bias_px.value / typical_px), 1) +
-                  " m in 100 m, at the disparity of the mean depth, " + fixedText(typical_px, 1) +
-                  " px; the odometry corrects " + fixedText(applied_px, 2) + " px of it",
-              kCalibrate},
-             {bias_px * (1.0 / typical_px), kAcceptable * kFixScale, kFixScale});
-  report.add({"disparities",
-              "bias over time",
-              "moves by " + fixedText(motion_px.value, 2) + " px (rms)",
+              "disparity bias over time",
+              "varies by " + fixedText(motion_px.value, 2) + " px (rms)",
               "the scale changes while the rig bends",
               "mount both cameras on one stiff bar"},
              {motion_px * (1.0 / typical_px), kAcceptable * kFixScale, kFixScale});

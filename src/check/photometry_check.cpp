@@ -266,7 +266,7 @@ class PhotometryCheck : public PairCheck {
     // Variances of Gaussians add; the blur itself would change its sign by chance.
     const Estimate blur_px2 = estimate(&Row::blur_px2);
     report.add({"photometry",
-                "gain right to left",
+                "gain of the right image relative to the left",
                 toText(gain, ""),
                 "nothing by itself, because matching uses correlation; but the darker image has "
                 "less contrast above its noise, and a longer exposure more motion blur",
@@ -276,33 +276,33 @@ class PhotometryCheck : public PairCheck {
     report.add(
         {"photometry",
          "gain over time",
-         std::isfinite(changes) ? "moves by " + fixedText(100.0 * changes, 1) + " %" : "unknown",
-         "exposures that adapt separately differ most where the light changes",
+         std::isfinite(changes) ? "varies by " + fixedText(100.0 * changes, 1) + " %" : "unknown",
+         "separate auto-exposures differ most where the light changes",
          "couple the exposures of the cameras"},
         {{changes}, kAcceptableGain, kFixGain});
     report.add({"photometry",
-                "gray levels right minus left",
-                toText(offset, "of 255 at black"),
-                "the brighter image loses that part of its range",
+                "black level, right minus left",
+                toText(offset, "of 255"),
+                "the brighter image loses that part of its gray levels",
                 "set the same black level in both cameras, and look for stray light"},
                {offset * (1.0 / kWhite), 0.02, 0.06});
-    report.add(
-        {"photometry",
-         "vignetting right to left",
-         toText(vignetting * 100.0, "% in the corners"),
-         "the darker corners lose features",
-         "use the same lens and aperture on both cameras, and look for something in front of one"},
-        {vignetting, 0.15, 0.4});
+    report.add({"photometry",
+                "vignetting of the right image relative to the left",
+                toText(vignetting * 100.0, "% in the corners"),
+                "the darker corners lose features",
+                "use the same lens and aperture on both cameras, and check that nothing is in "
+                "front of one"},
+               {vignetting, 0.15, 0.4});
     const std::string side = blur_px2.value > 0.0 ? "right" : "left";
     const double blur_px = std::sqrt(std::abs(blur_px2.value));
     const double sigma_px = blur_px2.sigma / std::max(2.0 * blur_px, std::sqrt(blur_px2.sigma));
-    report.add({"photometry",
-                "sharpness right against left",
-                toText(Estimate{blur_px, sigma_px}, "px") +
-                    " of blur (Gaussian sigma) more on the " + side,
-                "features of fine texture are lost, and disparities get noisier",
-                "focus and clean the " + side + " lens"},
-               {blur_px2, 0.4 * 0.4, 0.8 * 0.8});
+    report.add(
+        {"photometry",
+         "sharpness of the right image relative to the left",
+         toText(Estimate{blur_px, sigma_px}, "px") + " more blur (Gaussian sigma) on the " + side,
+         "features on fine texture are lost, and disparities get noisier",
+         "focus and clean the " + side + " lens"},
+        {blur_px2, 0.4 * 0.4, 0.8 * 0.8});
   }
 
   /// The standard deviation of the gain over the pairs, relative, as eight of ten of them have it;

@@ -123,8 +123,8 @@ class PairChecks {
       report.findings.push_back(
           {"inputs",
            "length of the recording",
-           "features have moved in " + toText(samples.size()) + " of " + toText(pairs_) + " pairs",
-           "each pair has errors of its own, so a few do not determine the rig",
+           "features moved in " + toText(samples.size()) + " of " + toText(pairs_) + " pairs",
+           "each pair has its own errors, so a few pairs are not enough",
            "record a minute of motion, with turns",
            Verdict::kUnknown,
            100.0});
@@ -184,7 +184,7 @@ class PairChecks {
         {"inputs",
          "principal points",
          "wrong in both cameras: by " + toText(x, "px") + " in x, " + toText(y, "px") + " in y",
-         "motions are turned by " + fixedText(turned * 180.0 / M_PI, 1) + " deg",
+         "motions are rotated by " + fixedText(turned * 180.0 / M_PI, 1) + " deg",
          "calibrate the images as they are: were they cropped after the calibration?"},
         {severity, kAcceptable, 1.0});
     return is_wrong;
@@ -207,11 +207,11 @@ class PairChecks {
         is_raw ? "both images have radial distortion, k1 = " + toText(model.value(kBothLenses), "")
                : "rows differ by " + fixedText(rest.rows_px, 2) + " px (rms), of which " +
                      toText(rest.unexplained_px, "px") +
-                     " are of no shape that a pair of rectified cameras has";
+                     " have a shape that rectified cameras cannot cause";
     report.add({"inputs",
                 "rectification",
                 measured,
-                "depths and motions are wrong, however many features agree",
+                "depths and motions are wrong, no matter how many features agree",
                 rectifies_ ? kCalibrateAgain : kRectify},
                kToFix);
     return true;
@@ -222,7 +222,7 @@ class PairChecks {
                 "lost pairs",
                 toText(lost_) + " of " + toText(pairs_) +
                     (lost_ > 0 ? ", most often because " + commonest_loss_ : ""),
-                "the distance between them is missing",
+                "the motion between them is missing",
                 "see the findings above; light, texture and turning speed matter most"},
                {{static_cast<double>(lost_) / pairs_}, 0.001, 0.03});
   }
@@ -247,7 +247,7 @@ class PairChecks {
                 toText(repeated_left_) + " left and " + toText(repeated_right_) + " right of " +
                     toText(pairs_) + " repeat the previous one",
                 both ? "the motion stops and then jumps" : "the images are of different times",
-                "look for a driver that sends its last buffer again, or a camera that hangs"},
+                "look for a driver that resends its last buffer, or a camera that hangs"},
                {{most}, 0.0, 0.02});
   }
 
@@ -256,9 +256,9 @@ class PairChecks {
     report.add({"inputs",
                 "calibration",
                 toText(of_other_camera_) + " of " + toText(of_other_camera_ + pairs_) +
-                    " pairs have another calibration or size than the first",
+                    " pairs have a different calibration or size than the first",
                 "they were not checked",
-                "check each part of the recording by itself"},
+                "check each part of the recording separately"},
                kToLookAt);
   }
 
@@ -267,10 +267,10 @@ class PairChecks {
     if (fault_.empty()) return;
     const std::size_t colon = fault_.find(": ");
     report.add({"inputs",
-                "images of left and right",
+                "left and right images",
                 fault_.substr(0, colon),
                 toText(pairs_ - ok_) + " of " + toText(pairs_) +
-                    " pairs have no motion, or a doubtful one" +
+                    " pairs have no motion estimate or a doubtful one" +
                     (isMostlyLost() ? ", so that nothing else can be measured" : ""),
                 colon == std::string::npos ? "" : fault_.substr(colon + 2)},
                isMostlyLost() || isExplained() ? kToFix : kToLookAt);

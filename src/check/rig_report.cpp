@@ -23,7 +23,7 @@ namespace {
 const std::string kIndent(12, ' ');
 
 const char* const kNotSeen =
-    "Not visible to this check: a wrong baseline, and an error that both focal lengths share.";
+    "This check cannot detect a wrong baseline, or an equal error in both focal lengths.";
 
 const char* toString(Verdict verdict) {
   constexpr const char* kNames[] = {"fix", "acceptable", "unknown", "good"};
@@ -110,7 +110,7 @@ std::string RigReport::advice() const {
   }
   const std::string prefix = first->verdict == Verdict::kFix
                                  ? "To fix first: "
-                                 : "Nothing must be fixed. What costs most: ";
+                                 : "Nothing needs fixing. Largest remaining error: ";
   return prefix + first->subject + ": " + first->measured + ". To do: " + first->remedy + ".";
 }
 

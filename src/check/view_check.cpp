@@ -132,7 +132,7 @@ class ViewCheck : public PairCheck {
          kMasked,
          percent(masked) + " of the image",
          "whatever moves with the cameras looks stationary: its features are rejected, or pull the "
-         "motion towards zero",
+         "motion toward zero",
          "look at `mask.png` of the report, and if it is the robot itself or a reflection, set "
          "the parameter `mask` to it"},
         {{masked}, kAcceptable, 0.05});

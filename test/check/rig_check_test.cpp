@@ -153,44 +153,41 @@ std::vector<Fault> faults() {
       "row of the right principal point",
       0.7);
   rig(
-      "bias", [](CameraFaults& f) { f.disparity_bias_px = -0.5; }, "bias of the disparities", 0.5);
+      "bias", [](CameraFaults& f) { f.disparity_bias_px = -0.5; }, "disparity bias", 0.5);
   rig(
-      "late",
-      [](CameraFaults& f) { f.time_skew_s = 0.008; },
-      "right images against left ones",
-      8.0);
+      "late", [](CameraFaults& f) { f.time_skew_s = 0.008; }, "delay of the right images", 8.0);
   rig(
       "focal",
       [](CameraFaults& f) { f.right_focal_ratio = 1.003; },
-      "focal length right to left",
+      "focal length of the right camera relative to the left",
       0.3);
   images(
       "lens",
       [](cv::Mat&, cv::Mat& right) { distortRight(right, 0.1); },
-      "radial distortion left over on the right",
+      "residual radial distortion of the right lens",
       0.1);
   all.back().share = 0.1;  // windows at the border are distorted themselves
   images(
       "gain",
       [](cv::Mat&, cv::Mat& right) { changeGray(right, 0.7, 0.0); },
-      "gain right to left",
+      "gain of the right image relative to the left",
       0.7);
   images(
       "offset",
       [](cv::Mat&, cv::Mat& right) { changeGray(right, 1.0, 20.0); },
-      "gray levels right minus left",
+      "black level, right minus left",
       20.0);
   images(
       "blur",
       [](cv::Mat&, cv::Mat& right) { cv::GaussianBlur(right, right, {}, 1.0); },
-      "sharpness right against left",
+      "sharpness of the right image relative to the left",
       1.0);
   images(
       "bumper", [](cv::Mat& left, cv::Mat& right) { addBumper(left, right); }, kMasked, NAN);
   images(
       "swapped",
       [](cv::Mat& left, cv::Mat& right) { std::swap(left, right); },
-      "images of left and right",
+      "left and right images",
       NAN);
   all.push_back({"raw",
                  [](SimulationOptions& options) { options.lens = "radtan"; },
@@ -205,9 +202,7 @@ std::vector<Fault> faults() {
       };
   const auto seventh = [](int index) { return index % 7 == 6 ? index - 1 : index; };
   frames(
-      "frame_late",
-      [](int index) { return std::pair(index, index - 1); },
-      "images of left and right");
+      "frame_late", [](int index) { return std::pair(index, index - 1); }, "left and right images");
   frames(
       "pairs_repeated",
       [=](int index) { return std::pair(seventh(index), seventh(index)); },
@@ -224,7 +219,7 @@ std::vector<Fault> faults() {
         cv::Mat part = right(cv::Rect(300, 60, 130, 80));
         cv::GaussianBlur(part, part, {}, 8.0);
       },
-      "parts with less than half of the detail, right",
+      "regions with less than half the detail, right",
       NAN);
   images(
       "compressed",
@@ -272,7 +267,9 @@ std::vector<Fault> faults() {
                    changeGray(right, 0.7, 0.0);
                    cv::GaussianBlur(right, right, {}, 1.0);
                  }),
-                 {"roll of the right camera", "gain right to left", "sharpness right against left"},
+                 {"roll of the right camera",
+                  "gain of the right image relative to the left",
+                  "sharpness of the right image relative to the left"},
                  {0.1, 0.7, 1.0}});
   return all;
 }
@@ -381,7 +378,7 @@ TEST(RigCheckTest, APerfectRigIsGood) {
   for (const Finding& finding : rig.report.findings) {
     // A rendered recording has one stamp for both images.
     const Verdict expected =
-        finding.subject == "stamps of left minus right" ? Verdict::kUnknown : Verdict::kGood;
+        finding.subject == "left minus right timestamps" ? Verdict::kUnknown : Verdict::kGood;
     EXPECT_EQ(finding.verdict, expected) << finding.subject << ": " << finding.measured;
     EXPECT_EQ(finding.remedy, "");
     sections.insert(finding.section);
@@ -477,7 +474,7 @@ TEST(RigCheckTest, RowsOfALensAreNoYaw) {
   const CheckedRig rig = check({"bent", [](SimulationOptions&) {}, ofImages(bendRows)});
   const std::vector<Finding>& findings = rig.report.findings;
   const auto yaw = std::find_if(findings.begin(), findings.end(), [](const Finding& finding) {
-    return finding.subject == "rows alone like those of a yaw";
+    return finding.subject == "errors that look like a yaw, in the rows alone";
   });
   ASSERT_NE(yaw, findings.end());
   const Estimate rows_deg = estimateOf(*yaw);
@@ -494,7 +491,7 @@ TEST(RigCheckTest, AFewPairsSayNothing) {
     const CheckedRig rig = checkRig(recording, {});
     const std::string text = toText(rig.report);
     SCOPED_TRACE(text);
-    EXPECT_NE(text.find("features have moved in "), std::string::npos);
+    EXPECT_NE(text.find("features moved in "), std::string::npos);
     EXPECT_NE(text.find("\n0 to fix, 0 acceptable, "), std::string::npos);
     EXPECT_EQ(text.find("nan"), std::string::npos);
     std::string why_not;
@@ -518,7 +515,7 @@ TEST(RigCheckTest, LeavesOutPairsOfAnotherCalibration) {
   const std::string text = toText(rig.report);
   SCOPED_TRACE(text);
   EXPECT_NE(text.find(std::to_string(kOthers) + " of " + std::to_string(options.frames) +
-                      " pairs have another calibration"),
+                      " pairs have a different calibration"),
             std::string::npos);
   EXPECT_NE(text.find("\n0 to fix, "), std::string::npos);
   EXPECT_NEAR(rig.measures.calibration.rectified.baseline_m, options.camera.baseline_m, 1e-9);
@@ -529,7 +526,7 @@ TEST(RigCheckTest, CorrectsNeitherAPerfectRigNorOneThatMoves) {
   RigMeasures measures = check({"perfect"}).measures;
   std::string why_not;
   EXPECT_FALSE(findCorrection(recording, {}, measures, why_not));
-  EXPECT_NE(why_not.find("no error to be fixed"), std::string::npos) << why_not;
+  EXPECT_NE(why_not.find("no error that needs fixing"), std::string::npos) << why_not;
   measures.rest.is_constant = false;
   EXPECT_FALSE(findCorrection(recording, {}, measures, why_not));
   EXPECT_NE(why_not.find("move"), std::string::npos) << why_not;
