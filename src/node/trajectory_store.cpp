@@ -17,7 +17,7 @@ namespace {
 void requireFile(const std::string& path) {
   const std::filesystem::file_status status = std::filesystem::status(path);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw std::runtime_error("cannot write " + path + ": it is not a file, give the name of one");
+    throw std::runtime_error("cannot write " + path + ": it is not a file; give a file name");
   }
   const std::filesystem::path directory = std::filesystem::path(path).parent_path();
   if (::access(directory.c_str(), W_OK | X_OK) == 0) return;

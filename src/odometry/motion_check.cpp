@@ -86,7 +86,7 @@ std::optional<std::string> MotionCheck::whyLost(const Hypothesis& found,
   if (features < kMinInliers) {
     return cv::format("only %d features were matched, fewer than %d", features, kMinInliers);
   }
-  if (!estimate.valid) return "the features determine no motion";
+  if (!estimate.valid) return "the features do not determine a motion";
   const int agreeing = inliers(estimate);
   if (agreeing < kMinInliers) {
     return cv::format("only %d features agree on a motion, fewer than %d", agreeing, kMinInliers);
@@ -112,7 +112,7 @@ std::optional<std::string> MotionCheck::whyLost(const Hypothesis& found,
     return std::nullopt;
   }
   return cv::format("only %d of %d tracked features agree on a motion", by_rotation, features) +
-         cv::format(", of %d in all: as many may by chance", found.counts.with_depth);
+         cv::format(", of %d in all: that many may agree by chance", found.counts.with_depth);
 }
 
 std::optional<std::string> MotionCheck::whyNotAtRest(const Hypothesis& accepted) {

@@ -122,7 +122,7 @@ TEST(DiagnosticsTest, AllIsWell) {
   EXPECT_EQ(valueOf(odometry, "state"), "OK");
   const StatusWrapper input = expectEntry(describeInput, report, Level::OK, "stereo pairs arrive");
   EXPECT_EQ(valueOf(input, "/r/image"), "10.0 Hz, 50 in 5 s, 500 in total, 1 publishers");
-  EXPECT_EQ(valueOf(input, "largest stamp difference of left and right"), "2.000 ms");
+  EXPECT_EQ(valueOf(input, "largest left-right stamp difference"), "2.000 ms");
   const StatusWrapper timing =
       expectEntry(describeTiming, report, Level::OK, "10.0 results per second");
   EXPECT_EQ(valueOf(timing, "latency p50"), "12.0 ms");
@@ -234,7 +234,7 @@ TEST(DiagnosticsTest, SlownessDropsAndFaultsOfTfAreWarnings) {
   guess.pair.tf_problem = "no tf from guess_frame wheel_odom";
   guess.pair.status.guess_misses = 7;
   status = expectEntry(describeTf, guess, Level::WARN, guess.pair.tf_problem);
-  EXPECT_EQ(valueOf(status, "pairs without a motion by guess_frame or guess_topic"), "7");
+  EXPECT_EQ(valueOf(status, "pairs without a motion from guess_frame or guess_topic"), "7");
 }
 
 TEST(DiagnosticsTest, ReportsWhyTheGyroscopeIsNotUsed) {

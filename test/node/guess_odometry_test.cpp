@@ -90,7 +90,7 @@ TEST_F(GuessOdometryTest, AFrameThatDoesNotExistIsLoggedOnceAndNotWaitedFor) {
   EXPECT_EQ(waits_, SourceWatch::kPairs);
   EXPECT_EQ(guess_.misses(), static_cast<std::uint64_t>(kPairs));
   EXPECT_EQ(log_.with("wheel_odom").size(), 1u);
-  EXPECT_NE(guess_.problem().find("no pose by guess_frame wheel_odom at 5 pairs in a row"),
+  EXPECT_NE(guess_.problem().find("no pose from guess_frame wheel_odom at 5 pairs in a row"),
             std::string::npos)
       << guess_.problem();
 

@@ -356,7 +356,7 @@ const std::vector<Fault> kFaults = {
     {"a gap of 3 s", {"arrive again"}, kGap, ofPair([](Pair& pair) { pair.pause_s = 3.0; })},
     {"a mount that moves with 3 Hz of tf", {"which moves, arrives at", kFrame}, kLasting, putOnHead},
     {"another mount on /tf_static, and a reset", {}, kOnce, changeMount},
-    {"no tf of guess_frame", {"no pose by guess_frame"}, kShort,
+    {"no tf of guess_frame", {"no pose from guess_frame"}, kShort,
      ofPair([](Pair& pair) { pair.send_guess = false; })},
     {"rival tf publisher", {"a frame has only one parent"}, kSilence,
      [](Drive& drive, Pair&) { drive.sendTf(Pose::Identity(), "rival_odom", "wheel_odom"); }},

@@ -34,10 +34,10 @@ GyroInput::GyroInput(const ros::NodeHandle& nh,
 void GyroInput::receive(const sensor_msgs::Imu& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (message.header.stamp.isZero()) {
-    return predictor_.reject("its stamp is zero, the driver must set header.stamp");
+    return predictor_.reject("its stamp is zero: the driver must set header.stamp");
   }
   if (message.angular_velocity_covariance[0] == -1.0) {
-    return predictor_.reject("it has no angular velocity, angular_velocity_covariance[0] is -1");
+    return predictor_.reject("it has no angular velocity: angular_velocity_covariance[0] is -1");
   }
   gyro_frame_ = withoutSlash(message.header.frame_id);
   predictor_.add(toGyroSample(message));
@@ -105,7 +105,7 @@ std::optional<Eigen::Vector3d> GyroInput::up(std::int64_t stamp_ns) {
   auto why = whyNoPose(stamp_ns, stamp_ns);
   if (!why) why = vertical_.whyUnknown(stamp_ns);
   if (!why) return R_camera_gyro_.at(stamp_ns) * vertical_.up();
-  log_.warn("the first pose is not leveled: " + *why);
+  log_.warn("the first pose is not level: " + *why);
   return std::nullopt;
 }
 

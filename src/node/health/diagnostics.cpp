@@ -70,13 +70,13 @@ void describeInput(const HealthReport& report, StatusWrapper& status) {
   status.addf("pairs", "%zu in 5 s", input.recent_pairs);
   if (input.skew) {
     status.addf(
-        "largest stamp difference of left and right", "%.3f ms", 1e3 * input.skew->largest_s);
+        "largest left-right stamp difference", "%.3f ms", 1e3 * input.skew->largest_s);
   }
   if (input.stamp_age_s) {
-    status.addf("age of the stamps of left images", "%.3f s", *input.stamp_age_s);
+    status.addf("age of left image stamps", "%.3f s", *input.stamp_age_s);
   }
-  status.addf("jitter of the stamps of left images", "%.3f ms", 1e3 * input.stamp_scatter_s);
-  status.addf("jitter of their arrival", "%.3f ms", 1e3 * input.arrival_scatter_s);
+  status.addf("jitter of left image stamps", "%.3f ms", 1e3 * input.stamp_scatter_s);
+  status.addf("jitter of left image arrivals", "%.3f ms", 1e3 * input.arrival_scatter_s);
   status.addf("max_stamp_difference_s", "%.3f ms", 1e3 * input.max_stamp_difference_s);
   status.addf("accepted stamp difference", "%.3f ms", 1e3 * input.tolerance_s);
 }
@@ -101,7 +101,7 @@ void describeTiming(const HealthReport& report, StatusWrapper& status) {
   status.addf("latency p50", "%.1f ms", report.latency_p50_ms);
   status.addf("latency p95", "%.1f ms", report.latency_p95_ms);
   status.addf("latency max", "%.1f ms", report.latency_max_ms);
-  status.addf("time of the estimator", "%.1f ms", report.pair.result.times.total_ms);
+  status.addf("estimator time", "%.1f ms", report.pair.result.times.total_ms);
 }
 
 void describeTf(const HealthReport& report, StatusWrapper& status) {
@@ -115,7 +115,7 @@ void describeTf(const HealthReport& report, StatusWrapper& status) {
   if (!report.pair.tf_problem.empty()) {
     status.mergeSummary(DiagnosticStatus::WARN, report.pair.tf_problem);
   }
-  status.add("pairs without a motion by guess_frame or guess_topic",
+  status.add("pairs without a motion from guess_frame or guess_topic",
              report.pair.status.guess_misses);
 }
 

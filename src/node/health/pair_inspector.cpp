@@ -274,11 +274,11 @@ OdometryResult PairInspector::distrusted(OdometryResult result) const {
   if (!isOfNoPair() || !result.hasMotion()) return result;
   if (result.counts.rotation_inliers >= kMostAgree * result.counts.consistent) {
     result.state = State::kDegraded;
-    result.reason = "left and right images were no pairs shortly before";
+    result.reason = "left and right images did not belong together shortly before";
     return result;
   }
   result.state = State::kLost;
-  result.reason = "left and right images are no pairs";
+  result.reason = "left and right images do not belong together";
   result.T_prev_cur.setIdentity();
   result.covariance.setZero();
   result.contrast_gain = result.flow_noise_px = 0.0;

@@ -64,12 +64,12 @@ void GuessOdometry::observe(const std::optional<std::int64_t>& missing_ns) {
 
 std::string GuessOdometry::describeMiss(std::int64_t stamp_ns) const {
   std::string cause = source_.why_not();
-  if (!cause.empty()) return "no pose by " + source_.name + ": " + cause;
+  if (!cause.empty()) return "no pose from " + source_.name + ": " + cause;
   tf_.canTransform(source_.guess_frame, source_.base_frame, toRosTime(stamp_ns), &cause);
   cause.erase(cause.find_last_not_of(". ") + 1);
   if (cause.empty()) cause = "it came too late";
   const bool late = tf_.canTransform(source_.guess_frame, source_.base_frame, ros::Time());
-  return "no pose by " + source_.name + " at " + std::to_string(SourceWatch::kPairs) +
+  return "no pose from " + source_.name + " at " + std::to_string(SourceWatch::kPairs) +
          " pairs in a row (" + cause + "), pairs no longer wait for it: " +
          (late ? "publish it within " + toText(kTimeout_s) +
                      " s of its stamp, or synchronize the clocks"

@@ -27,7 +27,7 @@ TEST(GuessFrameTest, IfItIsMissingThatIsToldCountedAndTriedAgain) {
   DiagnosticsListener diagnostics;
   NodeletDrive drive({{"guess_frame", "wheel_odom"}});
   drive.setUp();
-  const std::string told = "no pose by guess_frame wheel_odom";
+  const std::string told = "no pose from guess_frame wheel_odom";
   OdometryStatus status;
   for (int pair = 0; pair < 10; ++pair) status = drive.statusOf(drive.robot.drive());
   EXPECT_EQ(status.state, OdometryStatus::OK) << status.reason;
@@ -121,7 +121,7 @@ TEST(GuessTopicTest, OfAnotherBodyIsNotUsedAndThatIsReported) {
   OdometryStatus status;
   EXPECT_TRUE(waitUntil([&] {
     status = drive.statusOf(drive.robot.drive());
-    return status.hint.find("no pose by guess_topic wheels: it has the motion of base_footprint") ==
+    return status.hint.find("no pose from guess_topic wheels: it has the motion of base_footprint") ==
            0u;
   })) << status.hint;
 }

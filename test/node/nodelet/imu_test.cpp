@@ -169,7 +169,7 @@ TEST_F(ImuTest, LevelsTheFirstPoseAtRest) {
   ASSERT_TRUE(drive_.services.call("reset", reset));
   const nav_msgs::Odometry again = drive_.odometryOf(drive_.robot.drive());
   EXPECT_TRUE(upOf(again).isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
-  EXPECT_EQ(drive_.log.with("the first pose is not leveled: the robot is not at rest").size(), 1u);
+  EXPECT_EQ(drive_.log.with("the first pose is not level: the robot is not at rest").size(), 1u);
 }
 
 /// The camera turns, and the base with the gyroscope does not.
