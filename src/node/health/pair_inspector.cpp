@@ -274,11 +274,11 @@ OdometryResult PairInspector::distrusted(OdometryResult result) const {
   if (!isOfNoPair() || !result.hasMotion()) return result;
   if (result.counts.rotation_inliers >= kMostAgree * result.counts.consistent) {
     result.state = State::kDegraded;
-    result.reason = "left and right images did not belong together shortly before";
+    result.reason = "left and right images did not match shortly before";
     return result;
   }
   result.state = State::kLost;
-  result.reason = "left and right images do not belong together";
+  result.reason = "left and right images do not match";
   result.T_prev_cur.setIdentity();
   result.covariance.setZero();
   result.contrast_gain = result.flow_noise_px = 0.0;
