@@ -133,7 +133,7 @@ def covariance(rows, setting):
         if numbers:
             table.append([name, total(runs, 'pairs'), *['%.2g' % number if number < 1 else '%.1f' % number
                                                         for number in numbers]])
-    return markdown(['drive', 'pairs', 'RMS error of a translation [mm]', 'reported sigma [mm]',
+    return markdown(['drive', 'pairs', 'RMS translation error [mm]', 'reported sigma [mm]',
                      'NEES of the translation (3)', 'of the rotation (3)', 'of both (6)', 'outside 99 % (1 %)'], table)
 
 
@@ -184,7 +184,7 @@ def limit_pairs(folder):
 
 
 def time_of(text, stage, column=0):
-    """[ms] a pair, from the table of offline_odometry: mean, median, p95, p99."""
+    """[ms] per pair, from the table of offline_odometry: mean, median, p95, p99."""
     return re.search(r'^ *%s +(.*)$' % stage, text, re.MULTILINE).group(1).split()[column]
 
 
@@ -196,9 +196,9 @@ def speed(texts):
     table = [[line, *[time_of(text, line.split(',')[0], column) for text in default.values()]]
              for line, column in lines.items()]
     table += [[stage, *[time_of(text, stage) for text in default.values()]] for stage in STAGES]
-    table.append(['memory of the odometry [MB]', *[re.search(r'of which ([\d.]+) MB', text).group(1)
+    table.append(['odometry memory usage [MB]', *[re.search(r'of which ([\d.]+) MB', text).group(1)
                                                    for text in default.values()]])
-    return markdown(['ms a pair', *map(name_of, default)], table)
+    return markdown(['ms per pair', *map(name_of, default)], table)
 
 
 def presets(rows, texts):
