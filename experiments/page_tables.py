@@ -170,7 +170,7 @@ def gyroscope(rows):
         cells = [form % (float(run[column])) for column, form in (
             (ERRORS[0], '%.2f'), (ERRORS[1], '%.3f'), ('lost', '%d'), ('tries', '%.2f')) for run in runs]
         table.append([n, '%.0f' % float(runs[0]['largest_rotation_deg']), *cells])
-    return markdown(['1 of', 'largest rotation [deg]', 'translation [%]: without', 'with', 'rotation [deg/m]: without',
+    return markdown(['every nth pair', 'largest rotation [deg]', 'translation [%]: without', 'with', 'rotation [deg/m]: without',
                      'with', 'lost: without', 'with', 'tries: without', 'with'], table)
 
 
