@@ -263,7 +263,8 @@ class PairChecks {
   }
 
   void addFault(RigReport& report) {
-    if (fault_.empty() && isMostlyLost()) fault_ = commonest_loss_;
+    const std::string single = inspector_.faultOfSinglePairs();
+    if (fault_.empty()) fault_ = single.empty() && isMostlyLost() ? commonest_loss_ : single;
     if (fault_.empty()) return;
     const std::size_t colon = fault_.find(": ");
     report.add({"inputs",
@@ -273,7 +274,7 @@ class PairChecks {
                     " pairs have no motion estimate or a doubtful one" +
                     (isMostlyLost() ? ", so that nothing else can be measured" : ""),
                 colon == std::string::npos ? "" : fault_.substr(colon + 2)},
-               isMostlyLost() || isExplained() ? kToFix : kToLookAt);
+               isMostlyLost() || isExplained() || fault_ == single ? kToFix : kToLookAt);
   }
 
   VisualOdometry odometry_;

@@ -72,12 +72,10 @@ YAML::Node toYaml(const std::vector<Finding>& findings) {
 }
 
 /// Where a finding stands among those of its verdict: causes, then what the cameras see, which may
-/// follow from them, then symptoms. A cause that can be accepted explains a symptom, too.
+/// follow from them, then symptoms.
 int rankOf(const Finding& finding) {
-  const auto verdict = static_cast<int>(finding.verdict);
-  if (finding.verdict >= Verdict::kUnknown) return 10 + verdict;
-  if (finding.section == "odometry") return 6 + verdict;
-  return 2 * verdict + (finding.section == "view" ? 1 : 0);
+  const int of_verdict = finding.section == "odometry" ? 2 : finding.section == "view" ? 1 : 0;
+  return 3 * static_cast<int>(finding.verdict) + of_verdict;
 }
 
 }  // namespace

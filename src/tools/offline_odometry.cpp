@@ -263,6 +263,7 @@ void run(const Options& options) {
   }
   progress.finish();
   outputs.printSummary(std::cout);
+  if (cause.empty()) cause = inspector.faultOfSinglePairs();
   if (!cause.empty()) std::cout << "likely cause of lost or degraded pairs: " << cause << '\n';
   if (gyro) gyro->printSummary(std::cout);
   if (preloaded) preloaded->printMemory();

@@ -213,6 +213,24 @@ std::vector<Fault> faults() {
       "repeated images");
   frames(
       "frozen", [](int index) { return std::pair(index, std::min(index, 30)); }, "repeated images");
+  const auto exchanged = [](int index) {
+    const int step = index % 7;
+    return step == 5 ? index + 1 : step == 6 ? index - 1 : index;
+  };
+  frames(
+      "pairs_exchanged",
+      [=](int index) { return std::pair(exchanged(index), exchanged(index)); },
+      "left and right images");
+  frames(
+      "right_exchanged",
+      [=](int index) { return std::pair(index, exchanged(index)); },
+      "left and right images");
+  Fault seventh_swapped = {
+      "seventh_swapped", [](SimulationOptions&) {}, {}, {"left and right images"}, {NAN}};
+  seventh_swapped.faults.images = [](cv::Mat& left, cv::Mat& right, int index) {
+    if (index % 7 == 6) std::swap(left, right);
+  };
+  all.push_back(seventh_swapped);
   images(
       "smudge",
       [](cv::Mat&, cv::Mat& right) {

@@ -69,8 +69,7 @@ void describeInput(const HealthReport& report, StatusWrapper& status) {
   }
   status.addf("pairs", "%zu in 5 s", input.recent_pairs);
   if (input.skew) {
-    status.addf(
-        "largest left-right stamp difference", "%.3f ms", 1e3 * input.skew->largest_s);
+    status.addf("largest left-right stamp difference", "%.3f ms", 1e3 * input.skew->largest_s);
   }
   if (input.stamp_age_s) {
     status.addf("age of left image stamps", "%.3f s", *input.stamp_age_s);
