@@ -121,8 +121,8 @@ TEST(GuessTopicTest, OfAnotherBodyIsNotUsedAndThatIsReported) {
   OdometryStatus status;
   EXPECT_TRUE(waitUntil([&] {
     status = drive.statusOf(drive.robot.drive());
-    return status.hint.find("no pose from guess_topic wheels: it has the motion of base_footprint") ==
-           0u;
+    return status.hint.find(
+               "no pose from guess_topic wheels: it has the motion of base_footprint") == 0u;
   })) << status.hint;
 }
 
