@@ -150,8 +150,8 @@ class RigPage:
                   ('black [%]', both('dark', 100.0)),
                   ('gain', [self.course('photometry', 'gain')]),
                   ('offset [gray]', [self.course('photometry', 'offset_gray')])]
-        return page.section('Photometry', 'Gray levels of both images, and the right one compared with the left one '
-                            'where both show the same: gain 1 and offset 0 are equal.',
+        return page.section('Photometry', 'Gray levels of both images, and of the right one relative to the left one where '
+                            'both show the same: a gain of 1 and an offset of 0 mean that they are equal.',
                             self.picture('photometry', 'gray levels over time', figures.courses, panels))
 
     def rows(self):
@@ -160,7 +160,7 @@ class RigPage:
         table = self.tables['rows_map']
         limit = figures.largest_px(table['row_px'], table['model_px'])
         parts = [('measured', table, table['row_px'], True), ('explained by the findings', table, table['model_px'], True),
-                 ('left over', table, table['row_px'] - table['model_px'], True)]
+                 ('unexplained', table, table['row_px'] - table['model_px'], True)]
         if self.has('rows_map_corrected'):
             after = self.tables['rows_map_corrected']
             parts.append(('measured with the corrected calibration', after, after['row_px'], True))
@@ -170,7 +170,7 @@ class RigPage:
             shown.append(self.picture('rows_time', 'row differences over time', figures.courses, [
                 ('middle of the image [px]', [self.course('rows_time', 'row_px', sigma='sigma_px')])]))
         return page.section('Rows', 'How much lower points are in the right image: zero everywhere for a rectified '
-                            'pair. Arrows show the displacement, in the scale of the colors. Changes over time '
+                            'pair. Arrows show it on the same scale as the colors. Changes over time '
                             'mean that the rig bends.', *shown)
 
     def disparities(self):
@@ -178,8 +178,8 @@ class RigPage:
             return ''
         picture = self.picture('bias_time', 'bias over time', figures.courses, [
             ('bias [px]', [self.course('bias_time', 'bias_px', sigma='sigma_px')])])
-        return page.section('Disparities', 'What must be added to disparities to agree with the motion, in each time '
-                            'window, with one standard deviation.', picture)
+        return page.section('Disparities', 'What must be added to disparities so that they agree with the motion, in '
+                            'each time window, with one standard deviation.', picture)
 
     def view(self):
         if not self.has('view_map'):
@@ -193,7 +193,8 @@ class RigPage:
             shown.append('<p>Proposed mask, the file <code>mask.png</code>:</p>')
             shown.append(self.picture('mask', 'proposed mask', figures.mask, self.folder / 'left.png',
                                       self.folder / 'mask.png'))
-        return page.section('What is seen', 'Where features agree with the motion of the rest: red is what no other part of the image has, such as the robot itself.', *shown)
+        return page.section('What is seen', 'Where features agree with the motion: red marks parts of the image where they '
+                            'never do, such as the robot itself.', *shown)
 
     def write(self):
         page.write_page(self.folder / 'index.html', self.content['title'], page.text(self.content['summary']), STYLE,

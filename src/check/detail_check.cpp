@@ -57,12 +57,13 @@ class DetailCheck : public PairCheck {
     constexpr double kStrong = 0.3;  // takes detail away
     for (int side = 0; side < 2; ++side) {
       const Estimate blocks = overWindows(blocks_[side], windows);
-      report.add({"photometry",
-                  side == 0 ? "compression, left" : "compression, right",
-                  "block edges are " + toText(blocks * 100.0, "%") + " stronger",
-                  "block corners are detected instead of scene corners",
-                  "raise the compression quality, or record uncompressed images"},
-                 {blocks, kStrong, 1.0});
+      report.add(
+          {"photometry",
+           side == 0 ? "compression, left" : "compression, right",
+           "edges between blocks are " + toText(blocks * 100.0, "%") + " stronger than others",
+           "block corners are detected instead of scene corners",
+           "raise the compression quality, or record uncompressed images"},
+          {blocks, kStrong, 1.0});
       // What is near is elsewhere in the other image, which has such parts, too.
       const bool is_near = !report.mask.empty() || cv::countNonZero(blurredParts(1 - side)) > 0;
       if (blocks.value < kStrong && pairs_ >= kLeastPairs && !is_near) addSmudge(side, report);
