@@ -170,8 +170,8 @@ def gyroscope(rows):
         cells = [form % (float(run[column])) for column, form in (
             (ERRORS[0], '%.2f'), (ERRORS[1], '%.3f'), ('lost', '%d'), ('tries', '%.2f')) for run in runs]
         table.append([n, '%.0f' % float(runs[0]['largest_rotation_deg']), *cells])
-    return markdown(['every nth pair', 'largest rotation [deg]', 'translation [%]: without', 'with', 'rotation [deg/m]: without',
-                     'with', 'lost: without', 'with', 'tries: without', 'with'], table)
+    return markdown(['every nth pair', 'largest rotation [deg]', 'translation [%]: without', 'with',
+                     'rotation [deg/m]: without', 'with', 'lost: without', 'with', 'tries: without', 'with'], table)
 
 
 def limits(folder):
@@ -197,7 +197,7 @@ def speed(texts):
              for line, column in lines.items()]
     table += [[stage, *[time_of(text, stage) for text in default.values()]] for stage in STAGES]
     table.append(['odometry memory usage [MB]', *[re.search(r'of which ([\d.]+) MB', text).group(1)
-                                                   for text in default.values()]])
+                                                  for text in default.values()]])
     return markdown(['ms per pair', *map(name_of, default)], table)
 
 

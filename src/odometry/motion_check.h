@@ -60,9 +60,8 @@ class MotionCheck {
   std::optional<std::string> whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance);
 
   /// Why a camera that seems stationary may be moving; none if it moves, or is certainly
-  /// stationary. A stationary camera loses no feature: those of the keyframe that are not found
-  /// again contradict, too. The others may belong to an overlay, or to an earlier image that shows
-  /// through.
+  /// stationary. A stationary camera loses no features: those that are not found again contradict,
+  /// too. The rest may belong to an overlay, or to an earlier image that shows through.
   std::optional<std::string> whyNotAtRest(const Hypothesis& accepted);
 
   /// Of the reasons of whyDegraded() the one that too few of the features agree: there may be a
