@@ -343,6 +343,7 @@ void RecordingInspector::trySinglePair(const StereoPair& pair, const StereoCamer
 
 /// Of two pairs that are exchanged: a step twice as long, one back, and another twice as long.
 void RecordingInspector::countReordered(const OdometryResult& result) {
+  ++pairs_;
   constexpr std::size_t kSteps = 4;
   constexpr double kSigmas = 5.0, kAlike = 0.5;
   const double sigma_m = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace());
@@ -360,7 +361,8 @@ void RecordingInspector::countReordered(const OdometryResult& result) {
 
 std::string RecordingInspector::faultOfSinglePairs() const {
   constexpr int kLeast = 2, kOfPairs = 4;  // a quarter: a wrong image may cost two pairs or more
-  if (reordered_ >= kLeast) {
+  constexpr int kOfSteps = 100;            // fewer may be vibrations of a handheld camera
+  if (reordered_ >= kLeast && kOfSteps * reordered_ >= pairs_) {
     return "the camera seems to go back for one pair " + toText(reordered_) +
            " times, as if two pairs were exchanged: look for a driver or recorder that changes the "
            "order of images";

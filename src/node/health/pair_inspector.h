@@ -125,7 +125,7 @@ class RecordingInspector {
   int tried_ = 0;                         // doubtful pairs
   std::map<std::string, int> explained_;  // of these, by what they match
   std::vector<Eigen::Vector3d> steps_m_;  // translations of the last pairs
-  int reordered_ = 0;
+  int pairs_ = 0, reordered_ = 0;
 };
 
 }  // namespace rotrocc
