@@ -197,7 +197,7 @@ FeatureTracker::FeatureTracker(const Config& config)
 
 void FeatureTracker::setDetail(double detail_px) {
   detail_px_ = detail_px;
-  const int radius_px = std::min(cvRound(detail_px * config_.window_radius_px), kMaxRadius_px);
+  const int radius_px = std::min(cvCeil(detail_px * config_.window_radius_px), kMaxRadius_px);
   if (radius_px != window_.radius()) window_ = TrackingWindow(radius_px);
 }
 

@@ -15,6 +15,10 @@ constexpr double kWalk_rad = 0.05 * BiasFilter::kPrior_rad;
 /// deviations makes motions worse.
 constexpr double kSignificance = 6.0;
 
+/// Factor of kSignificance once a bias has been applied by half: what was beyond doubt does not end
+/// with a pair that is less certain.
+constexpr double kHysteresis = 0.5;
+
 /// Degrees of freedom of Student's t: about as many as the cells that decide on the bias of a pair.
 constexpr double kFreedom = 6.0;
 
@@ -36,18 +40,22 @@ void BiasFilter::add(const BiasMeasurement& measurement, double fx_px) {
   mean_rad_ += gain * off_rad;
   variance_rad2_ *= surprise * (1.0 - gain);
   shared_rad_ += gain * (shared_rad - shared_rad_);
+  is_off_ = logOdds() > 0.0;
 }
 
-/// The probability that the bias differs from the known one is the ratio of the likelihoods of
-/// both: one half at kSignificance standard deviations.
-DisparityBias BiasFilter::bias(double fx_px) const {
+/// Of the bias to differ from the known one: the ratio of the likelihoods of both, and even at the
+/// significance.
+double BiasFilter::logOdds() const {
+  const double significance = (is_off_ ? kHysteresis : 1.0) * kSignificance;
   const double variance_rad2 = variance_rad2_ + shared_rad_ * shared_rad_;
-  const double log_odds =
-      0.5 * (mean_rad_ * mean_rad_ / variance_rad2 - kSignificance * kSignificance);
+  return 0.5 * (mean_rad_ * mean_rad_ / variance_rad2 - significance * significance);
+}
+
+DisparityBias BiasFilter::bias(double fx_px) const {
   DisparityBias bias;
   bias.estimated_px = fx_px * mean_rad_;
-  bias.applied_px = bias.estimated_px / (1.0 + std::exp(-log_odds));
-  bias.sigma_px = fx_px * std::sqrt(variance_rad2);
+  bias.applied_px = bias.estimated_px / (1.0 + std::exp(-logOdds()));
+  bias.sigma_px = fx_px * std::sqrt(variance_rad2_ + shared_rad_ * shared_rad_);
   return bias;
 }
 

@@ -24,13 +24,16 @@ class BiasFilter {
   void add(const BiasMeasurement& measurement, double fx_px);
 
   /// The estimate, relative to the known bias. `applied_px` is weighted by the probability that the
-  /// rig is off at all.
+  /// rig is off at all. A rig that was off remains so: less evidence suffices from then on.
   DisparityBias bias(double fx_px) const;
 
  private:
+  double logOdds() const;
+
   double mean_rad_ = 0.0;
   double variance_rad2_ = kPrior_rad * kPrior_rad;  // without shared errors
   double shared_rad_ = 0.0;  // standard deviation of the measurements by shared errors
+  bool is_off_ = false;
 };
 
 }  // namespace rotrocc

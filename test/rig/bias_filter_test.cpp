@@ -48,6 +48,20 @@ TEST(BiasFilterTest, AppliesWhatIsBeyondDoubt) {
   EXPECT_NEAR(certain.bias(kFx_px).applied_px, 1.0, 0.05);
 }
 
+TEST(BiasFilterTest, AppliesWhatWasBeyondDoubt) {
+  BiasFilter filter;
+  BiasFilter doubtful;
+  for (int pair = 0; pair < 10; ++pair) filter.add(measured(1.0), kFx_px);
+  for (int pair = 0; pair < 30; ++pair) {
+    filter.add(measured(0.6), kFx_px);  // 4.6 standard deviations
+    doubtful.add(measured(0.6), kFx_px);
+  }
+  EXPECT_NEAR(doubtful.bias(kFx_px).applied_px, 0.0, 0.1);
+  EXPECT_NEAR(filter.bias(kFx_px).applied_px, 0.6, 0.05);
+  for (int pair = 0; pair < 30; ++pair) filter.add(measured(0.2), kFx_px);
+  EXPECT_NEAR(filter.bias(kFx_px).applied_px, 0.0, 0.01);
+}
+
 TEST(BiasFilterTest, HardlyBelievesASingleOutlier) {
   BiasFilter filter;
   for (int pair = 0; pair < 30; ++pair) filter.add(measured(0.0), kFx_px);
