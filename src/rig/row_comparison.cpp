@@ -1,7 +1,11 @@
 #include "rig/row_comparison.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
+
+#include <opencv2/core.hpp>
 
 #include "common/median.h"
 
@@ -21,25 +25,59 @@ constexpr double kNotable_px = 0.5;
 /// Standard deviations of the median between a notable offset and none.
 constexpr double kCertain = 3.0;
 
+/// Half rows that are counted, the outer ones with all that is beyond.
+constexpr int kHalfRows = 20;
+
+/// How many times as many features the most frequent row has as any other, if it is not by chance.
+constexpr int kClearlyMore = 2;
+
+int halfRowOf(float value_px) {
+  return std::clamp(cvFloor(2.0F * value_px) + kHalfRows / 2, 0, kHalfRows - 1);
+}
+
+/// Chance matches are in all rows, and may be most of those that are searched in several rows. What
+/// is far from the most frequent row is left out if this row stands out: not with a camera that is
+/// rolled, whose features are in many rows.
+void keepMostFrequent(std::vector<float>& values_px) {
+  std::array<int, kHalfRows> counts = {};
+  for (const float value_px : values_px) ++counts[halfRowOf(value_px)];
+  const auto inRow = [&](int first) { return counts[first] + counts[first + 1]; };
+  int most = 0;
+  for (int i = 1; i + 1 < kHalfRows; ++i) {
+    if (inRow(i) > inRow(most)) most = i;
+  }
+  for (int i = 0; i + 1 < kHalfRows; ++i) {
+    if (std::abs(i - most) > 2 && kClearlyMore * inRow(i) > inRow(most)) return;
+  }
+  const auto isFar = [&](float value_px) {
+    const int half_row = halfRowOf(value_px);
+    return half_row < most - 1 || half_row > most + 2;
+  };
+  values_px.erase(std::remove_if(values_px.begin(), values_px.end(), isFar), values_px.end());
+}
+
 }  // namespace
 
 RowComparison::RowComparison() : last_px_(kFeatures) {
-  sorted_px_.reserve(kFeatures);
+  kept_px_.reserve(kFeatures);
+  distances_px_.reserve(kFeatures);
 }
 
 void RowComparison::observe(const std::vector<float>& differences_px) {
   if (differences_px.empty()) return;
   last_px_.insert(last_px_.end(), differences_px.begin(), differences_px.end());
+  kept_px_.assign(last_px_.begin(), last_px_.end());
+  keepMostFrequent(kept_px_);
+  distances_px_.resize(kept_px_.size());
   const auto medianDistanceFrom = [&](double center_px) {
-    std::transform(last_px_.begin(), last_px_.end(), sorted_px_.begin(), [&](float value_px) {
+    std::transform(kept_px_.begin(), kept_px_.end(), distances_px_.begin(), [&](float value_px) {
       return std::abs(value_px - static_cast<float>(center_px));
     });
-    return median(sorted_px_);
+    return median(distances_px_);
   };
-  sorted_px_.assign(last_px_.begin(), last_px_.end());
-  offset_.median_px = median(sorted_px_);
+  offset_.median_px = median(kept_px_);
   const double scatter_px = kDeviationOverMedian * medianDistanceFrom(offset_.median_px);
-  offset_.sigma_px = kMedianOverMean * scatter_px / std::sqrt(static_cast<double>(last_px_.size()));
+  offset_.sigma_px = kMedianOverMean * scatter_px / std::sqrt(static_cast<double>(kept_px_.size()));
   offset_.typical_px = medianDistanceFrom(0.0);
   if (!isKnown()) return;
   const double notable_px = std::max(kNotable_px, scatter_px);
@@ -48,7 +86,7 @@ void RowComparison::observe(const std::vector<float>& differences_px) {
 }
 
 bool RowComparison::isKnown() const {
-  return last_px_.size() >= kLeastFeatures && kCertain * offset_.sigma_px <= kNotable_px;
+  return kept_px_.size() >= kLeastFeatures && kCertain * offset_.sigma_px <= kNotable_px;
 }
 
 bool RowComparison::isNear(double offset_px) const {
@@ -56,7 +94,9 @@ bool RowComparison::isNear(double offset_px) const {
 }
 
 void RowComparison::searchAgain() {
-  if (isKnown()) last_px_.clear();
+  if (!isKnown()) return;
+  last_px_.clear();
+  kept_px_.clear();
 }
 
 void RowComparison::scale(double factor) {
@@ -70,6 +110,7 @@ void RowComparison::scale(double factor) {
 void RowComparison::reset() {
   offset_ = {};
   last_px_.clear();
+  kept_px_.clear();
 }
 
 }  // namespace rotrocc

@@ -8,9 +8,10 @@
 
 namespace rotrocc {
 
-/// Estimates the RowOffset from single features, some of which are outliers, and decides what is
-/// corrected. Not an offset that is small, or smaller than the scatter of the features: that is no
-/// constant. A correction ends at half of that, so it does not come and go with the noise.
+/// Estimates the RowOffset from single features, many of which may be chance matches, and decides
+/// what is corrected. Not an offset that is small, or smaller than the scatter of the features:
+/// that is no constant. A correction ends at half of that, so it does not come and go with the
+/// noise.
 class RowComparison {
  public:
   RowComparison();
@@ -40,7 +41,8 @@ class RowComparison {
  private:
   RowOffset offset_;
   boost::circular_buffer<float> last_px_;
-  std::vector<float> sorted_px_;
+  std::vector<float> kept_px_;       // of these, without chance matches
+  std::vector<float> distances_px_;  // buffer
 };
 
 }  // namespace rotrocc

@@ -26,11 +26,10 @@ TEST(RowComparisonTest, FindsTheOffsetInSpiteOfWrongFeatures) {
   RowComparison comparison;
   show(1000, -0.35, 0.2, comparison);
   const RowOffset& offset = comparison.offset();
-  // The outliers shift the median by 0.18 standard deviations of the noise.
-  EXPECT_NEAR(offset.median_px, -0.35 + 0.18 * 0.2, 0.02);
+  // 1.25 * 0.2 / sqrt(875), of those that are no outliers.
+  EXPECT_NEAR(offset.sigma_px, 0.0085, 0.001);
+  EXPECT_NEAR(offset.median_px, -0.35, 0.0255) << "3 standard deviations";
   EXPECT_NEAR(offset.typical_px, 0.35, 0.05);
-  // 1.25 * 0.2 / sqrt(1000), increased by the outliers.
-  EXPECT_NEAR(offset.sigma_px, 0.008, 0.002);
 }
 
 TEST(RowComparisonTest, ForgetsWhatIsLongAgo) {
@@ -74,6 +73,34 @@ TEST(RowComparisonTest, CorrectionsDoNotComeAndGo) {
   EXPECT_NEAR(appliedAt(0.4), 0.4, 0.05);
   EXPECT_EQ(appliedAt(0.15), 0.0);
   EXPECT_EQ(appliedAt(0.4), 0.0);
+}
+
+/// As those of a search in several rows: two thirds are anywhere.
+TEST(RowComparisonTest, FindsTheOffsetAmongChanceMatches) {
+  RowComparison comparison;
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<float> anywhere(-4.0F, 4.0F);
+  std::normal_distribution<float> near(3.5F, 0.2F);
+  std::vector<float> differences_px;
+  for (int i = 0; i < 300; ++i) {
+    differences_px.push_back(i % 3 == 0 ? near(generator) : anywhere(generator));
+  }
+  comparison.observe(differences_px);
+  EXPECT_TRUE(comparison.isKnown());
+  // A fifth of what is kept is by chance.
+  EXPECT_NEAR(comparison.offset().applied_px, 3.5, 0.1);
+}
+
+TEST(RowComparisonTest, ChanceMatchesAloneAreNoOffset) {
+  RowComparison comparison;
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<float> anywhere(-4.0F, 4.0F);
+  for (int pair = 0; pair < 50; ++pair) {
+    std::vector<float> differences_px(20);
+    for (float& difference_px : differences_px) difference_px = anywhere(generator);
+    comparison.observe(differences_px);
+    EXPECT_EQ(comparison.offset().applied_px, 0.0) << pair;
+  }
 }
 
 /// As with a right camera that is rolled and pitched.
