@@ -63,8 +63,7 @@ std::vector<Patch> patchesOf(const CheckedPair& pair, int radius, std::size_t mo
   return patches;
 }
 
-/// Mean gray levels of patches, left and right, and the square of the distance
-/// from the middle, 1 in the corners.
+/// Mean gray levels of patches, left and right, and r^2 from the middle, 1 in the corners.
 std::vector<Eigen::Array3d> patchMeans(const CheckedPair& pair) {
   const cv::Point2d corner(0.5 * pair.camera.width, 0.5 * pair.camera.height);
   std::vector<Eigen::Array3d> means;
@@ -77,13 +76,11 @@ std::vector<Eigen::Array3d> patchMeans(const CheckedPair& pair) {
   return means;
 }
 
-/// to = c0 from + c1 + c2 from r^2: least squares with Cauchy weights, because
-/// at edges of depth the images show different things.
+/// to = c0 from + c1 + c2 from r^2, with Cauchy weights: at edges of depth the images differ.
 Eigen::Vector3d fitLevels(const Eigen::ArrayXd& from,
                           const Eigen::ArrayXd& to,
                           const Eigen::ArrayXd& r2) {
-  // Weights of 2.3 standard deviations, for 95 % efficiency: cauchyWeights()
-  // takes errors for lengths of two-dimensional ones, whose median is longer.
+  // 2.3 standard deviations, for 95 % efficiency; cauchyWeights() expects lengths of errors.
   constexpr double kRobust = 4.0;
   constexpr int kIterations = 10;
   Eigen::MatrixX3d rows(from.size(), 3);
@@ -305,8 +302,7 @@ class PhotometryCheck : public PairCheck {
         {blur_px2, 0.4 * 0.4, 0.8 * 0.8});
   }
 
-  /// The standard deviation of the gain over the pairs, relative, as eight of ten of them have it;
-  /// nan if unknown.
+  /// Relative standard deviation of the gain over the pairs, as eight of ten have it, or nan.
   double gainScatter() const {
     constexpr double kOverDeviation = 2.563;  // of normal values
     std::vector<double> gains;

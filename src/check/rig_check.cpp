@@ -84,6 +84,7 @@ class PairChecks {
     if (const auto fault = inspector_.inspect(pair, camera, result); !fault.empty()) {
       fault_ = fault;
       is_of_no_pair_ = inspector_.inspector().isOfNoPair();
+      is_of_loss_ = !inspector_.inspector().finish().empty();
     }
     sampler_.observe(checked);
     for (const auto& check : checks_) check->observe(checked);
@@ -107,8 +108,9 @@ class PairChecks {
     addLost(report);
     const std::vector<PairSamples>& samples = sampler_.pairs();
     if (!isMostlyLost()) {
-      const RigModel& model = rig.measures.model = fitRig(camera_, samples, windows);
       for (const auto& check : checks_) check->report(windows, report);
+      if (!report.mask.empty()) sampler_.exclude(report.mask);
+      const RigModel& model = rig.measures.model = fitRig(camera_, samples, windows);
       rig.measures.rest = checkModel(camera_, samples, model, windows, applied_px_, report);
       if (isExplained()) {
         doubt(report);
@@ -155,8 +157,10 @@ class PairChecks {
 
   bool isMostlyLost() const { return 2 * with_motion_ < pairs_; }
 
-  /// Whether many motions are in doubt because the images are no pairs.
-  bool isExplained() const { return is_of_no_pair_ && 4 * (pairs_ - ok_) > pairs_; }
+  /// Whether the fault is the cause of most doubtful motions: a quarter, if images are no pairs.
+  bool isExplained() const {
+    return is_of_loss_ && (is_of_no_pair_ ? 4 : 2) * (pairs_ - ok_) > pairs_;
+  }
 
   /// What is not good in the sections of measurements is unknown.
   static void doubt(RigReport& report) {
@@ -197,9 +201,8 @@ class PairChecks {
     const bool is_unexplained =
         rest.unexplained_px.certain() > model.fix_rows_px &&
         std::none_of(report.findings.begin(), report.findings.end(), [](const Finding& finding) {
-          if (finding.verdict > Verdict::kAcceptable) return false;
-          return finding.subject == kRowsOverTime || finding.subject == kMasked ||
-                 (finding.verdict == Verdict::kFix && finding.section == "photometry");
+          return (finding.verdict == Verdict::kFix && finding.section == "photometry") ||
+                 (finding.verdict <= Verdict::kAcceptable && finding.subject == kRowsOverTime);
         });
     if (!is_raw && !is_unexplained) return false;
     doubt(report);
@@ -290,7 +293,7 @@ class PairChecks {
   std::string fault_;
   std::map<std::string, int> losses_;  // by reason
   std::string commonest_loss_;
-  bool is_of_no_pair_ = false;
+  bool is_of_loss_ = false, is_of_no_pair_ = false;  // the fault
   // How far the features have come, also at the keyframe and at the last pair that was new.
   double at_px_ = 0.0, keyframe_at_px_ = 0.0, taken_at_px_ = 0.0;
   std::int64_t keyframe_stamp_ns_ = 0;

@@ -12,6 +12,7 @@
 #include <yaml-cpp/yaml.h>
 #include <boost/algorithm/string/case_conv.hpp>
 
+#include "check/pair_check.h"
 #include "files/csv_file.h"
 #include "files/image_file.h"
 #include "files/report_directory.h"
@@ -71,11 +72,13 @@ YAML::Node toYaml(const std::vector<Finding>& findings) {
   return list;
 }
 
-/// Where a finding stands among those of its verdict: causes, then what the cameras see, which may
-/// follow from them, then symptoms.
-int rankOf(const Finding& finding) {
-  const int of_verdict = finding.section == "odometry" ? 2 : finding.section == "view" ? 1 : 0;
-  return 3 * static_cast<int>(finding.verdict) + of_verdict;
+/// The verdict, and what depends on what: matches on the images, rows and delays on matches,
+/// disparities on rows and delays, and all the rest on disparities.
+std::pair<Verdict, int> rankOf(const Finding& finding) {
+  static const std::map<std::string, int> kRanks = {
+      {"inputs", 0}, {"photometry", 0}, {"rows", 1}, {"time", 1}, {"disparities", 2}, {"view", 3}};
+  const auto rank = kRanks.find(finding.subject == kMasked ? "inputs" : finding.section);
+  return {finding.verdict, rank == kRanks.end() ? 4 : rank->second};
 }
 
 }  // namespace

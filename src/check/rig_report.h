@@ -57,7 +57,7 @@ struct RigReport {
   /// A value that is known no better than the limit of fix is unknown.
   void add(Finding finding, const Graded& graded);
 
-  /// Puts what needs fixing first, causes before symptoms, and of those the most severe.
+  /// Puts what needs fixing first, of that what others depend on, and of that the most severe.
   void sort();
 
   bool needsFix() const;

@@ -97,6 +97,15 @@ void RigSampler::observe(const CheckedPair& pair) {
   addVelocities(pair.camera, twist);
 }
 
+void RigSampler::exclude(const cv::Mat& mask) {
+  const auto isMasked = [&](const RigSample& sample) {
+    return mask.at<uchar>(cv::Point(sample.left_px)) != 0;
+  };
+  for (auto& [time_s, noise_px, applied_px, samples] : pairs_) {
+    samples.erase(std::remove_if(samples.begin(), samples.end(), isMasked), samples.end());
+  }
+}
+
 void RigSampler::addVelocities(const StereoCamera& camera, const Vector6d& twist) {
   const Eigen::Vector3d right(camera.baseline_m, 0.0, 0.0);
   auto sample = pairs_.back().samples.begin();

@@ -29,6 +29,8 @@ class RigSampler {
   void observe(const CheckedPair& pair);
 
   const std::vector<PairSamples>& pairs() const { return pairs_; }
+  /// Discards the features where `mask`, CV_8UC1, is not 0: parts of the robot do not move.
+  void exclude(const cv::Mat& mask);
 
  private:
   /// To the last samples, by the motion of the left camera per second.

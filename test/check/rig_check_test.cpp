@@ -185,6 +185,19 @@ std::vector<Fault> faults() {
   images(
       "bumper", [](cv::Mat& left, cv::Mat& right) { addBumper(left, right); }, kMasked, NAN);
   images(
+      "large_bumper",
+      [](cv::Mat& left, cv::Mat& right) { addBumper(left, right, 3); },
+      kMasked,
+      NAN);
+  images(
+      "rows_apart",
+      [](cv::Mat&, cv::Mat& right) {
+        const cv::Mat lower = right.clone();
+        lower.rowRange(7, right.rows).copyTo(right.rowRange(0, right.rows - 7));
+      },
+      "left and right images",
+      NAN);
+  images(
       "swapped",
       [](cv::Mat& left, cv::Mat& right) { std::swap(left, right); },
       "left and right images",

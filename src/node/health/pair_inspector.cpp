@@ -117,10 +117,11 @@ std::string lateText(const std::string& side, const std::string& other, bool is_
 }
 
 /// Which other images are the pairs, if more features agree on a motion between those; empty if
-/// none are.
+/// none are. `may_be_swapped`: more corners have a disparity if left and right are swapped.
 std::string whichArePairs(const std::vector<StereoPair>& pairs,
                           const OdometryConfig& config,
-                          const StereoCamera& camera) {
+                          const StereoCamera& camera,
+                          bool may_be_swapped) {
   if (pairs.size() < 2) return "";
   const std::size_t last = pairs.size() - 1;
   const Agreement direct = agreementOf(config, camera, pairs[last - 1], pairs[last]);
@@ -153,6 +154,7 @@ std::string whichArePairs(const std::vector<StereoPair>& pairs,
              false,
              lateText("left", "right", is_next));
   }
+  if (!may_be_swapped) return text;
   StereoCamera swapped = camera;
   std::swap(swapped.cx, swapped.cx_right);
   tryPairs(swapped,
@@ -186,7 +188,10 @@ Explanation explainLoss(const std::vector<StereoPair>& pairs,
   }
   const bool few = direct < kFewShare * matches.corners();
   const double clearly_more = kClearlyMore * std::max(direct, kFewCorners);
-  if (const std::string other = whichArePairs(pairs, config, camera); !other.empty()) {
+  // What stands still agrees also by chance.
+  const bool may_be_swapped = matches.count(right, left) > direct;
+  if (const std::string other = whichArePairs(pairs, config, camera, may_be_swapped);
+      !other.empty()) {
     return {other, true};
   }
   for (const int offset : kOffsets_px) {
