@@ -157,7 +157,7 @@ class PairChecks {
 
   bool isMostlyLost() const { return 2 * with_motion_ < pairs_; }
 
-  /// Whether the fault is the cause of most doubtful motions: a quarter, if images are no pairs.
+  /// Whether most motions, or a quarter if images are no pairs, are in doubt because of the fault.
   bool isExplained() const {
     return is_of_loss_ && (is_of_no_pair_ ? 4 : 2) * (pairs_ - ok_) > pairs_;
   }

@@ -66,7 +66,7 @@ class FeatureTracker {
   explicit FeatureTracker(const Config& config);
 
   /// Sets StereoCamera::detail_px of the images that are tracked, of which windows and limits are
-  /// multiples; those of windows are rounded up.
+  /// multiples; window radii are rounded up.
   void setDetail(double detail_px);
 
   /// Tracks the point `start` from one image to another. `scale` is the expected scale change of

@@ -43,8 +43,8 @@ void BiasFilter::add(const BiasMeasurement& measurement, double fx_px) {
   is_off_ = logOdds() > 0.0;
 }
 
-/// Of the bias to differ from the known one: the ratio of the likelihoods of both, and even at the
-/// significance.
+/// That the bias differs from the known one: the logarithm of the ratio of the likelihoods of both,
+/// zero at the significance.
 double BiasFilter::logOdds() const {
   const double significance = (is_off_ ? kHysteresis : 1.0) * kSignificance;
   const double variance_rad2 = variance_rad2_ + shared_rad_ * shared_rad_;
