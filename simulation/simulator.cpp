@@ -154,13 +154,17 @@ cv::Mat Simulator::developed(const cv::Mat& brightness, int index, bool right) c
 
 SimulatedFrame Simulator::render(int index) const {
   const Picture left = exposed(time_s(index), false);
-  const Picture right = exposed(time_s(index) + options_.faults.time_skew_s, true);
   SimulatedFrame frame;
   frame.pair.stamp_ns = stamp_ns(index);
   frame.pair.left = developed(left.brightness, index, false);
-  frame.pair.right = developed(right.brightness, index, true);
+  frame.pair.right = renderRight(index);
   if (!unrectified_) frame.depth = left.depth;
   return frame;
+}
+
+cv::Mat Simulator::renderRight(int index) const {
+  const Picture right = exposed(time_s(index) + options_.faults.time_skew_s, true);
+  return developed(right.brightness, index, true);
 }
 
 }  // namespace rotrocc

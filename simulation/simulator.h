@@ -74,6 +74,9 @@ class Simulator {
 
   SimulatedFrame render(int index) const;
 
+  /// The right image of that frame alone.
+  cv::Mat renderRight(int index) const;
+
  private:
   double time_s(int index) const { return toSeconds(stamps_ns_.at(index)); }
   PixelRays rays(bool right) const;

@@ -12,7 +12,7 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kStep = 1e-3;  // of derivatives, over kPriorSigmas
+constexpr double kDifference = 1e-3;  // of derivatives, over kPriorSigmas
 
 constexpr double kLeastNoise_px = 0.02;
 
@@ -180,7 +180,7 @@ void RigProblem::linearize() {
   for (std::size_t k = 0; k < kRigCauses; ++k) {
     if (is_left_out_[k]) continue;
     RigCauses changed = values;
-    changed[k] += kStep * kPriorSigmas[k];
+    changed[k] += kDifference * kPriorSigmas[k];
     steps.emplace_back(Eigen::Index(k), RigDisplacement(camera_, causesOf(changed)));
   }
   for (std::vector<Normal>* windows : {&rows_, &flows_}) {
@@ -197,7 +197,7 @@ void RigProblem::linearize() {
       Jacobian jacobian = Jacobian::Zero();
       for (const auto& [k, step] : steps) {
         jacobian.col(k) =
-            (step.of(sample) - at) / (kStep * kPriorSigmas[static_cast<std::size_t>(k)]);
+            (step.of(sample) - at) / (kDifference * kPriorSigmas[static_cast<std::size_t>(k)]);
       }
       if (std::isfinite(sample.row_px)) {
         const double error_px = sample.row_px - at.y();

@@ -9,6 +9,8 @@
 
 namespace rotrocc {
 
+constexpr double kDegreesPerRadian = 180.0 / M_PI;
+
 /// A value and its standard deviation.
 struct Estimate {
   double value = 0.0;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -19,42 +19,52 @@ namespace {
 /// ROS has no stamp 0.
 constexpr std::int64_t kStart_ns = 1'000'000'000'000;
 
-struct RenderedDrive {
-  std::shared_ptr<std::vector<StereoPair>> pairs = std::make_shared<std::vector<StereoPair>>();
-  std::shared_ptr<std::vector<Eigen::Isometry3d>> poses =
-      std::make_shared<std::vector<Eigen::Isometry3d>>();
-};
-
-RenderedDrive render(const std::string& name, const SimulationOptions& options) {
-  Simulator simulator(scenario(name, options.seed), options);
-  RenderedDrive drive;
-  for (int i = 0; i < simulator.size(); ++i) {
-    drive.pairs->push_back(simulator.render(i).pair);
-    drive.pairs->back().stamp_ns += kStart_ns;
-    drive.poses->push_back(simulator.pose(i));
-  }
-  return drive;
+std::string textOf(const CameraFaults& rig) {
+  std::ostringstream text;
+  text << rig.right_rotation_rad.transpose() << ' ' << rig.row_offset_px << ' '
+       << rig.disparity_bias_px << ' ' << rig.time_skew_s << ' ' << rig.right_focal_ratio;
+  return text.str();
 }
 
 }  // namespace
 
-RenderedRecording::RenderedRecording(const std::string& key,
-                                     const std::string& scenario,
+RenderedRecording::RenderedRecording(const std::string& scenario,
                                      const SimulationOptions& options,
                                      Faults faults)
-    : camera_(options.camera), faults_(std::move(faults)) {
-  static std::map<std::string, RenderedDrive> drives;
-  if (drives.count(key) == 0) drives[key] = render(scenario, options);
-  pairs_ = drives[key].pairs;
-  poses_ = drives[key].poses;
+    : camera_(options.camera), faults_(std::move(faults)), size_(options.frames) {
+  static std::map<std::string, Drive> drives;
+  Drive& drive = drives[scenario + " " + options.lens];
+  std::vector<cv::Mat>& right = drive.right[textOf(options.faults)];
+  const auto simulate = [&](const CameraFaults& rig) {
+    SimulationOptions with_faults = options;
+    with_faults.faults = rig;
+    return Simulator(rotrocc::scenario(scenario, options.seed), with_faults);
+  };
+  if (static_cast<int>(drive.pairs.size()) < size_) {
+    const Simulator simulator = simulate({});
+    for (int i = static_cast<int>(drive.pairs.size()); i < size_; ++i) {
+      drive.pairs.push_back(simulator.render(i).pair);
+      drive.pairs.back().stamp_ns += kStart_ns;
+      drive.poses.push_back(simulator.pose(i));
+      drive.right[textOf({})].push_back(drive.pairs.back().right);
+    }
+  }
+  if (static_cast<int>(right.size()) < size_) {
+    const Simulator simulator = simulate(options.faults);
+    for (int i = static_cast<int>(right.size()); i < size_; ++i) {
+      right.push_back(simulator.renderRight(i));
+    }
+  }
+  drive_ = &drive;
+  right_ = &right;
 }
 
 ros::Time RenderedRecording::begin() const {
-  return toRosTime(pairs_->front().stamp_ns);
+  return toRosTime(pair(0).stamp_ns);
 }
 
 ros::Time RenderedRecording::end() const {
-  return toRosTime(pairs_->back().stamp_ns);
+  return toRosTime(pair(size_ - 1).stamp_ns);
 }
 
 RecordedMessage RenderedRecording::infos(const ros::Time& stamp) const {
@@ -82,15 +92,13 @@ void RenderedRecording::select(const ros::Time&, const ros::Time&, bool) {
 }
 
 bool RenderedRecording::next(RecordedMessage& message) {
-  if (next_ == pairs_->size()) return false;
-  const auto index = static_cast<int>(next_++);
-  message = infos(toRosTime((*pairs_)[static_cast<std::size_t>(index)].stamp_ns));
-  const auto frame = [&](int shown) -> const StereoPair& {
-    return (*pairs_)[static_cast<std::size_t>(std::clamp(shown, 0, size() - 1))];
-  };
+  if (next_ == size_) return false;
+  const int index = next_++;
+  message = infos(toRosTime(pair(index).stamp_ns));
+  const auto frame = [&](int shown) { return std::clamp(shown, 0, size_ - 1); };
   const auto [left_frame, right_frame] = faults_.frames(index);
-  cv::Mat left = frame(left_frame).left.clone();
-  cv::Mat right = frame(right_frame).right.clone();
+  cv::Mat left = pair(frame(left_frame)).left.clone();
+  cv::Mat right = right_->at(frame(right_frame)).clone();
   faults_.images(left, right, index);
   message.left_image = cv_bridge::CvImage(message.left_info->header, "mono8", left).toImageMsg();
   message.right_image = cv_bridge::CvImage(message.right_info->header, "mono8", right).toImageMsg();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,14 +24,11 @@ class RenderedRecording : public Recording {
     std::function<void(sensor_msgs::CameraInfo& right)> info = [](sensor_msgs::CameraInfo&) {};
   };
 
-  /// Renders the frames of `options`, or takes those of an earlier one with the same `key`.
-  RenderedRecording(const std::string& key,
-                    const std::string& scenario,
-                    const SimulationOptions& options,
-                    Faults faults);
+  /// Renders `options.frames` frames, except what an earlier one has. All have the same camera.
+  RenderedRecording(const std::string& scenario, const SimulationOptions& options, Faults faults);
 
   std::string description() const override { return "a rendered drive"; }
-  int size() const override { return static_cast<int>(pairs_->size()); }
+  int size() const override { return size_; }
   bool isRaw() const override { return false; }
   ros::Time begin() const override;
   ros::Time end() const override;
@@ -42,17 +40,25 @@ class RenderedRecording : public Recording {
   void select(const ros::Time& from, const ros::Time& to, bool with_tf) override;
   bool next(RecordedMessage& message) override;
 
-  /// T_first_left of each pair.
-  const std::vector<Eigen::Isometry3d>& poses() const { return *poses_; }
+  /// T_first_left.
+  const Eigen::Isometry3d& pose(int index) const { return drive_->poses.at(index); }
 
  private:
+  struct Drive {
+    std::vector<StereoPair> pairs;
+    std::vector<Eigen::Isometry3d> poses;               ///< T_first_left
+    std::map<std::string, std::vector<cv::Mat>> right;  ///< by the faults of the rig
+  };
+
+  const StereoPair& pair(int index) const { return drive_->pairs.at(index); }
   RecordedMessage infos(const ros::Time& stamp) const;
 
   StereoCamera camera_;
   Faults faults_;
-  std::shared_ptr<const std::vector<StereoPair>> pairs_;
-  std::shared_ptr<const std::vector<Eigen::Isometry3d>> poses_;
-  std::size_t next_ = 0;
+  const Drive* drive_;  ///< may have more frames
+  const std::vector<cv::Mat>* right_;
+  int size_;
+  int next_ = 0;
 };
 
 }  // namespace rotrocc

@@ -8,7 +8,7 @@
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/rotation.h>
 #include <gtest/gtest.h>
-#include <unsupported/Eigen/MatrixFunctions>
+#include <Eigen/Eigenvalues>
 
 #include "support/simulated_features.h"
 
@@ -82,7 +82,8 @@ TEST(ReprojectionProblemTest, WhiteningMakesTheCovarianceOfAResidualTheIdentity)
         const Eigen::Vector2d j = byDisparity(camera, feature, T);
         const Eigen::Matrix2d S =
             Eigen::Matrix2d::Identity() + kNoiseRatio * kNoiseRatio * j * j.transpose();
-        const Eigen::Matrix2d W = S.llt().solve(Eigen::Matrix2d::Identity()).sqrt();
+        const Eigen::Matrix2d W =
+            Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(S).operatorInverseSqrt();
         const Automatic automatic(camera, feature, T);
         // The error of central differences is the square of the step, about 1e-7.
         EXPECT_LT((term.residual_px - W * automatic.residual).norm(), 1e-5);
