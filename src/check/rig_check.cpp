@@ -102,7 +102,6 @@ class PairChecks {
                      fixedText(path_m_, 1) + " m; " + sizeText(camera_.width, camera_.height) +
                      ", focal length " + fixedText(camera_.fx, 1) + " px, baseline " +
                      fixedText(camera_.baseline_m, 3) + " m";
-    addFault(report);
     addOtherCamera(report);
     addRepeated(report);
     addLost(report);
@@ -112,7 +111,9 @@ class PairChecks {
       if (!report.mask.empty()) sampler_.exclude(report.mask);
       const RigModel& model = rig.measures.model = fitRig(camera_, samples, windows);
       rig.measures.rest = checkModel(camera_, samples, model, windows, applied_px_, report);
-      if (isExplained()) {
+      const bool fits = rig.measures.rest.unexplained_px.value < model.fix_rows_px;
+      is_explained_ = areDoubtful() && (is_of_no_pair_ || !fits);
+      if (is_explained_) {
         doubt(report);
       } else {
         const bool is_of_lens = model.exceeds(1.0, kBothLenses) || model.exceeds(1.0, kLens);
@@ -120,6 +121,7 @@ class PairChecks {
                                 !addRectification(rig.measures.rest, model, report);
       }
     }
+    addFault(report);
     if (samples.size() < kLeastMotions) {
       doubt(report);
       report.findings.push_back(
@@ -158,7 +160,7 @@ class PairChecks {
   bool isMostlyLost() const { return 2 * with_motion_ < pairs_; }
 
   /// Whether most motions, or a quarter if images are no pairs, are in doubt because of the fault.
-  bool isExplained() const {
+  bool areDoubtful() const {
     return is_of_loss_ && (is_of_no_pair_ ? 4 : 2) * (pairs_ - ok_) > pairs_;
   }
 
@@ -277,7 +279,7 @@ class PairChecks {
                     " pairs have no motion estimate or a doubtful one" +
                     (isMostlyLost() ? ", so that nothing else can be measured" : ""),
                 colon == std::string::npos ? "" : fault_.substr(colon + 2)},
-               isMostlyLost() || isExplained() || fault_ == single ? kToFix : kToLookAt);
+               isMostlyLost() || is_explained_ || fault_ == single ? kToFix : kToLookAt);
   }
 
   VisualOdometry odometry_;
@@ -294,6 +296,7 @@ class PairChecks {
   std::map<std::string, int> losses_;  // by reason
   std::string commonest_loss_;
   bool is_of_loss_ = false, is_of_no_pair_ = false;  // the fault
+  bool is_explained_ = false;  // by the fault are the doubts, and what the model does not fit
   // How far the features have come, also at the keyframe and at the last pair that was new.
   double at_px_ = 0.0, keyframe_at_px_ = 0.0, taken_at_px_ = 0.0;
   std::int64_t keyframe_stamp_ns_ = 0;

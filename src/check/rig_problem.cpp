@@ -256,7 +256,7 @@ void RigProblem::addFlows(std::size_t pair,
     const double sigmas = leftOf(residual, motion_errors_[pair]).norm() / std::sqrt(2.0);
     // Of Geman and McClure (1987): with Cauchy's, wrong matches of a busy street move the bias.
     const double weight = std::pow(cauchyWeight(sigmas), 2);
-    parts[region].matrix += weight * residual.transpose() * residual;
+    parts[region].matrix += (weight * residual.transpose()).lazyProduct(residual);
     ++parts[region].count;
   }
   FlowSums all;

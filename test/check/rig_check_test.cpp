@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <regex>
@@ -16,9 +18,9 @@
 
 #include "bags/recorded_pairs.h"
 #include "check/calibration_correction.h"
+#include "check/faulty_recording.h"
 #include "check/model_check.h"
 #include "check/pair_check.h"
-#include "check/rendered_recording.h"
 #include "check/rig_causes.h"
 #include "check/windows.h"
 #include "rotrocc/visual_odometry.h"
@@ -49,7 +51,7 @@ struct Fault {
   std::string name;
   std::function<void(SimulationOptions&)> rig = [](SimulationOptions&) {
   };  ///< renders another drive
-  RenderedRecording::Faults faults = {};
+  FaultyRecording::Faults faults = {};
   std::vector<std::string> subjects = {};  ///< of the findings that name it
   std::vector<double> values = {};         ///< that they have; nan if it is none
   double share = 0.0;                      ///< of a value that may be missing
@@ -59,19 +61,19 @@ void changeGray(cv::Mat& image, double gain, double offset) {
   image.convertTo(image, CV_8U, gain, offset);
 }
 
-/// A hood with scratches, 20 px of disparity away, in the lowest part of the image.
-void addBumper(cv::Mat& left, cv::Mat& right, int parts = 5) {
+/// A hood with scratches in the lowest part of the image.
+void addBumper(cv::Mat& left, cv::Mat& right, int parts = 5, int disparity_px = 20) {
   cv::RNG random(7);
-  cv::Mat texture(left.rows / parts, left.cols + 40, CV_8UC1);
+  cv::Mat texture(left.rows / parts, left.cols + 2 * disparity_px, CV_8UC1);
   random.fill(texture, cv::RNG::UNIFORM, 0, 255);
   cv::GaussianBlur(texture, texture, {}, 1.5);
   const int top = left.rows - texture.rows;
   texture.colRange(0, left.cols).copyTo(left.rowRange(top, left.rows));
-  texture.colRange(20, left.cols + 20).copyTo(right.rowRange(top, right.rows));
+  texture.colRange(disparity_px, left.cols + disparity_px).copyTo(right.rowRange(top, right.rows));
 }
 
-RenderedRecording::Faults ofImages(std::function<void(cv::Mat&, cv::Mat&)> change) {
-  RenderedRecording::Faults faults;
+FaultyRecording::Faults ofImages(std::function<void(cv::Mat&, cv::Mat&)> change) {
+  FaultyRecording::Faults faults;
   faults.images = [change](cv::Mat& left, cv::Mat& right, int) { change(left, right); };
   return faults;
 }
@@ -84,11 +86,11 @@ void addNoise(cv::Mat& image, int seed) {
   cv::add(image, noise, image, {}, CV_8U);
 }
 
-/// Warps the right image: `source` is where a good camera sees
-/// what is seen at a place, both in normalized coordinates.
+/// Warps the right image: `source` is where a good camera sees what is seen at a place, both in
+/// normalized coordinates.
 void warpRight(cv::Mat& right,
-               const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& source) {
-  const StereoCamera camera = perfectRig().camera;
+               const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& source,
+               const StereoCamera& camera = perfectRig().camera) {
   cv::Mat places(right.size(), CV_32FC2);
   places.forEach<cv::Point2f>([&](cv::Point2f& place, const int* pixel) {
     const Eigen::Vector2d at =
@@ -99,13 +101,16 @@ void warpRight(cv::Mat& right,
   cv::remap(right, right, places, {}, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
 }
 
-void turnRight(cv::Mat& right, const Eigen::Vector3d& rotation_rad) {
+void turnRight(cv::Mat& right,
+               const Eigen::Vector3d& rotation_rad,
+               const StereoCamera& camera = perfectRig().camera) {
   RigCauses causes = {};
   for (const std::size_t k : {kRoll, kPitch, kYaw}) causes[k] = rotation_rad[Eigen::Index(k)];
   const Eigen::Matrix3d R = rotationOf(causes);
-  warpRight(right, [&](const Eigen::Vector2d& seen) -> Eigen::Vector2d {
+  const auto source = [&](const Eigen::Vector2d& seen) -> Eigen::Vector2d {
     return (R * seen.homogeneous()).hnormalized();
-  });
+  };
+  warpRight(right, source, camera);
 }
 
 /// Radial distortion k1 that the right camera has too much.
@@ -312,7 +317,7 @@ std::vector<Fault> faults() {
 CheckedRig check(const Fault& fault) {
   SimulationOptions options = perfectRig();
   fault.rig(options);
-  RenderedRecording recording("city", options, fault.faults);
+  FaultyRecording recording("city", options, fault.faults);
   return checkRig(recording, {});
 }
 
@@ -361,12 +366,53 @@ INSTANTIATE_TEST_SUITE_P(Rendered, RigFaultTest, testing::ValuesIn(faults()), []
   return info.param.name;
 });
 
+/// A street at more pixels than the rendered ones.
+class RealRigTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const char* kitti = std::getenv("ROTROCC_KITTI_DIR");
+    if (kitti == nullptr) GTEST_SKIP() << "set ROTROCC_KITTI_DIR to run this";
+    directory_ = std::filesystem::path(kitti) / "raw_0926_024_143";
+    if (!std::filesystem::exists(directory_)) GTEST_SKIP() << directory_ << " is missing";
+  }
+
+  CheckedRig check(FaultyRecording::Faults faults) const {
+    FaultyRecording recording(KittiSequence(directory_.string()), std::move(faults));
+    return checkRig(recording, {});
+  }
+
+  std::filesystem::path directory_;
+};
+
+/// Rows that are far apart make all pairs doubtful and lose none. What is fitted to the wrong
+/// matches looks like a lens.
+TEST_F(RealRigTest, DoubtsAboutAllPairsAreOfTheRows) {
+  const StereoCamera camera = KittiSequence(directory_.string()).camera;
+  const CheckedRig rig = check(ofImages([&](cv::Mat&, cv::Mat& right) {
+    turnRight(right, {0.0, 0.5 * kRadians, 0.0}, camera);
+  }));
+  const Finding& first = rig.report.findings.at(0);
+  EXPECT_EQ(first.subject, "left and right images") << first.measured;
+  EXPECT_NE(first.measured.find("rows"), std::string::npos) << first.measured;
+}
+
+/// What stands still agrees with much by chance.
+TEST_F(RealRigTest, ABumperIsNoOtherFault) {
+  FaultyRecording::Faults faults;
+  faults.images = [](cv::Mat& left, cv::Mat& right, int index) {
+    addBumper(left, right, 3, 60);
+    addNoise(left, 2 * index);
+    addNoise(right, 2 * index + 1);
+  };
+  EXPECT_EQ(check(faults).report.findings.at(0).subject, kMasked);
+}
+
 /// The calibration is that of the whole images. Straight ahead, it would turn the motion only.
 TEST(RigCheckTest, ACropOfBothImagesShowsInTurns) {
   constexpr int kCrop_px = 30;
   SimulationOptions options = perfectRig();
   options.frames = kLong;
-  RenderedRecording recording(
+  FaultyRecording recording(
       "handheld", options, ofImages([](cv::Mat& left, cv::Mat& right) {
         for (cv::Mat* image : {&left, &right}) {
           const cv::Mat whole = image->clone();
@@ -435,7 +481,7 @@ TEST(RigCheckTest, ProposesAMaskOfTheBumper) {
 }
 
 /// Error of the motions of a recording, by a calibration.
-double errorOf(RenderedRecording& recording, const StereoCalibration& calibration) {
+double errorOf(FaultyRecording& recording, const StereoCalibration& calibration) {
   RecordedPairs pairs(recording, {}, "yes", std::make_shared<const StereoCalibration>(calibration));
   VisualOdometry odometry({});
   StereoPair pair;
@@ -450,10 +496,10 @@ double errorOf(RenderedRecording& recording, const StereoCalibration& calibratio
 TEST(RigCheckTest, CorrectsTheCalibration) {
   SimulationOptions options = perfectRig();
   options.frames = kLong;
-  RenderedRecording perfect("city", options, {});
+  FaultyRecording perfect("city", options, {});
   options.faults.right_rotation_rad = Eigen::Vector3d(0.15, 0.1, 0.1) * kRadians;
   options.faults.right_focal_ratio = 1.003;
-  RenderedRecording recording("city", options, {});
+  FaultyRecording recording("city", options, {});
   const CheckedRig before = checkRig(recording, {});
   std::string why_not;
   const auto correction = findCorrection(recording, {}, before.measures, why_not);
@@ -515,11 +561,11 @@ TEST(RigCheckTest, RowsOfALensAreNoYaw) {
 
 TEST(RigCheckTest, AFewPairsSayNothing) {
   SimulationOptions options = perfectRig();
-  RenderedRecording::Faults faults;
+  FaultyRecording::Faults faults;
   faults.info = [](sensor_msgs::CameraInfo& right) { right.P[2] -= 2.0; };
   for (const int frames : {1, 2, 10}) {
     options.frames = frames;
-    RenderedRecording recording("city", options, faults);
+    FaultyRecording recording("city", options, faults);
     const CheckedRig rig = checkRig(recording, {});
     const std::string text = toText(rig.report);
     SCOPED_TRACE(text);
@@ -537,12 +583,12 @@ TEST(RigCheckTest, LeavesOutPairsOfAnotherCalibration) {
   constexpr int kOthers = 30;
   SimulationOptions options = perfectRig();
   bool is_other = false;
-  RenderedRecording::Faults faults;
+  FaultyRecording::Faults faults;
   faults.images = [&](cv::Mat&, cv::Mat&, int index) {  // before the camera_info of the next pair
     is_other = index + 1 >= options.frames - kOthers && index + 1 < options.frames;
   };
   faults.info = [&](sensor_msgs::CameraInfo& right) { right.P[3] *= is_other ? 1.3 : 1.0; };
-  RenderedRecording recording("city", options, faults);
+  FaultyRecording recording("city", options, faults);
   const CheckedRig rig = checkRig(recording, {});
   const std::string text = toText(rig.report);
   SCOPED_TRACE(text);
@@ -554,7 +600,7 @@ TEST(RigCheckTest, LeavesOutPairsOfAnotherCalibration) {
 }
 
 TEST(RigCheckTest, CorrectsNeitherAPerfectRigNorOneThatMoves) {
-  RenderedRecording recording("city", perfectRig(), {});
+  FaultyRecording recording("city", perfectRig(), {});
   RigMeasures measures = check({"perfect"}).measures;
   std::string why_not;
   EXPECT_FALSE(findCorrection(recording, {}, measures, why_not));

@@ -8,11 +8,12 @@
 
 #include "bags/recording.h"
 #include "simulation/simulator.h"
+#include "support/kitti_sequence.h"
 
 namespace rotrocc {
 
-/// A rendered drive as a recording, with faults of images and of camera_info.
-class RenderedRecording : public Recording {
+/// A drive as a recording, with faults of images and of camera_info.
+class FaultyRecording : public Recording {
  public:
   struct Faults {
     /// Which frames are shown at an index, left and right; clamped to those there are.
@@ -25,9 +26,12 @@ class RenderedRecording : public Recording {
   };
 
   /// Renders `options.frames` frames, except what an earlier one has. All have the same camera.
-  RenderedRecording(const std::string& scenario, const SimulationOptions& options, Faults faults);
+  FaultyRecording(const std::string& scenario, const SimulationOptions& options, Faults faults);
 
-  std::string description() const override { return "a rendered drive"; }
+  /// Reads the images once for all recordings of a sequence.
+  FaultyRecording(const KittiSequence& sequence, Faults faults);
+
+  std::string description() const override { return "a drive with faults"; }
   int size() const override { return size_; }
   bool isRaw() const override { return false; }
   ros::Time begin() const override;
@@ -40,7 +44,7 @@ class RenderedRecording : public Recording {
   void select(const ros::Time& from, const ros::Time& to, bool with_tf) override;
   bool next(RecordedMessage& message) override;
 
-  /// T_first_left.
+  /// T_first_left of a rendered drive.
   const Eigen::Isometry3d& pose(int index) const { return drive_->poses.at(index); }
 
  private:

@@ -1,4 +1,4 @@
-#include "check/rendered_recording.h"
+#include "check/faulty_recording.h"
 
 #include <algorithm>
 #include <map>
@@ -28,9 +28,9 @@ std::string textOf(const CameraFaults& rig) {
 
 }  // namespace
 
-RenderedRecording::RenderedRecording(const std::string& scenario,
-                                     const SimulationOptions& options,
-                                     Faults faults)
+FaultyRecording::FaultyRecording(const std::string& scenario,
+                                 const SimulationOptions& options,
+                                 Faults faults)
     : camera_(options.camera), faults_(std::move(faults)), size_(options.frames) {
   static std::map<std::string, Drive> drives;
   Drive& drive = drives[scenario + " " + options.lens];
@@ -59,15 +59,29 @@ RenderedRecording::RenderedRecording(const std::string& scenario,
   right_ = &right;
 }
 
-ros::Time RenderedRecording::begin() const {
+FaultyRecording::FaultyRecording(const KittiSequence& sequence, Faults faults)
+    : camera_(sequence.camera), faults_(std::move(faults)), size_(sequence.size()) {
+  static std::map<std::string, Drive> drives;
+  Drive& drive = drives[sequence.directory];
+  std::vector<cv::Mat>& right = drive.right[""];
+  for (int i = static_cast<int>(drive.pairs.size()); i < size_; ++i) {
+    drive.pairs.push_back(sequence.pair(i));
+    drive.pairs.back().stamp_ns += kStart_ns;
+    right.push_back(drive.pairs.back().right);
+  }
+  drive_ = &drive;
+  right_ = &right;
+}
+
+ros::Time FaultyRecording::begin() const {
   return toRosTime(pair(0).stamp_ns);
 }
 
-ros::Time RenderedRecording::end() const {
+ros::Time FaultyRecording::end() const {
   return toRosTime(pair(size_ - 1).stamp_ns);
 }
 
-RecordedMessage RenderedRecording::infos(const ros::Time& stamp) const {
+RecordedMessage FaultyRecording::infos(const ros::Time& stamp) const {
   auto [left, right] = toCameraInfos(rectifiedCalibration(camera_));
   faults_.info(right);
   left.header.stamp = right.header.stamp = stamp;
@@ -79,19 +93,19 @@ RecordedMessage RenderedRecording::infos(const ros::Time& stamp) const {
   return message;
 }
 
-RecordedMessage RenderedRecording::firstInfos() const {
+RecordedMessage FaultyRecording::firstInfos() const {
   return infos(begin());
 }
 
-GyroRecording RenderedRecording::gyroscope(const std::string& name) const {
+GyroRecording FaultyRecording::gyroscope(const std::string& name) const {
   throw std::runtime_error("there is no gyroscope " + name);
 }
 
-void RenderedRecording::select(const ros::Time&, const ros::Time&, bool) {
+void FaultyRecording::select(const ros::Time&, const ros::Time&, bool) {
   next_ = 0;
 }
 
-bool RenderedRecording::next(RecordedMessage& message) {
+bool FaultyRecording::next(RecordedMessage& message) {
   if (next_ == size_) return false;
   const int index = next_++;
   message = infos(toRosTime(pair(index).stamp_ns));
