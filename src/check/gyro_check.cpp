@@ -80,17 +80,16 @@ class GyroCheck : public PairCheck {
     const double angle = Eigen::AngleAxisd(R_camera_gyro_ * all.R_camera_gyro.transpose()).angle();
     const double angle_sigma = sigmas.tail<3>().norm();
     const Eigen::Quaterniond q(all.R_camera_gyro);
-    report.add(
-        {"time",
-         "gyroscope axes against tf",
-         toText(Estimate{angle * kDegreesPerRadian, angle_sigma * kDegreesPerRadian}, "deg") +
-             " apart; rotation from gyroscope to left camera according to the images: qx qy "
-             "qz qw " +
-             fixedText(q.x(), 5) + " " + fixedText(q.y(), 5) + " " + fixedText(q.z(), 5) + " " +
-             fixedText(q.w(), 5),
-         "rotations are predicted about the wrong axis",
-         "correct the transform from the base to the gyroscope, or to the camera"},
-        {{angle, angle_sigma}, 1.0 / kDegreesPerRadian, 3.0 / kDegreesPerRadian});
+    report.add({"time",
+                "gyroscope axes against tf",
+                toText(Estimate{angle * kDegrees, angle_sigma * kDegrees}, "deg") +
+                    " apart; rotation from gyroscope to left camera according to the images: qx qy "
+                    "qz qw " +
+                    fixedText(q.x(), 5) + " " + fixedText(q.y(), 5) + " " + fixedText(q.z(), 5) +
+                    " " + fixedText(q.w(), 5),
+                "rotations are predicted about the wrong axis",
+                "correct the transform from the base to the gyroscope, or to the camera"},
+               {{angle, angle_sigma}, 1.0 / kDegrees, 3.0 / kDegrees});
   }
 
  private:

@@ -30,10 +30,10 @@ struct CauseText {
   double factor;  ///< from the unit of RigCauses
 };
 constexpr CauseText kCauseTexts[] = {
-    {kRoll, "roll of the right camera", "deg", kDegreesPerRadian},
-    {kPitch, "pitch of the right camera", "deg", kDegreesPerRadian},
-    {kYaw, "yaw of the right camera", "deg", kDegreesPerRadian},
-    {kTwist, "errors that look like a yaw, in the rows alone", "deg", kDegreesPerRadian},
+    {kRoll, "roll of the right camera", "deg", kDegrees},
+    {kPitch, "pitch of the right camera", "deg", kDegrees},
+    {kYaw, "yaw of the right camera", "deg", kDegrees},
+    {kTwist, "errors that look like a yaw, in the rows alone", "deg", kDegrees},
     {kFocal, "focal length of the right camera relative to the left", "%", 100.0},
     {kOffset, "row of the right principal point", "px", 1.0},
     {kLens, "residual radial distortion of the right lens", "(k1)", 1.0},
@@ -44,7 +44,7 @@ std::string orTurn(const StereoCamera& camera, const RigModel& model, RigCause c
   const bool is_row = cause == kOffset;
   const TurnOrShift which = is_row ? model.vertical : model.horizontal;
   if (which != TurnOrShift::kEither || model.values[cause] == 0.0) return "";
-  const double per_px = is_row ? kDegreesPerRadian / camera.fy : -kDegreesPerRadian / camera.fx;
+  const double per_px = is_row ? kDegrees / camera.fy : -kDegrees / camera.fx;
   return std::string(", or a ") + (is_row ? "pitch" : "yaw") + " of " +
          toText(model.value(cause) * per_px, "deg") + ": the images do not show which";
 }
@@ -87,7 +87,7 @@ void addCauses(const StereoCamera& camera, const RigModel& model, RigReport& rep
               kOtherLens},
              {both, kAcceptable, 1.0});
   const Estimate skew_s = model.value(kTimeSkew);
-  const Estimate shift_px = skew_s * (10.0 / kDegreesPerRadian * camera.fx);
+  const Estimate shift_px = skew_s * (10.0 / kDegrees * camera.fx);
   report.add({"time",
               "delay of the right images",
               toText(skew_s * 1e3, "ms"),

@@ -13,6 +13,10 @@ struct ModelRest {
   double rows_px = 0.0;     ///< row differences as they are, rms over the image
   Estimate unexplained_px;  ///< of these by no cause: lenses leave some hundredths
   bool is_constant = true;  ///< rows and bias, over time
+  /// Whether most of the rows are explained: wrong matches have no cause in common.
+  bool isLittle() const {
+    return unexplained_px.value + 3.0 * unexplained_px.sigma < 0.5 * rows_px;
+  }
 };
 
 /// The subject of the finding that the rig moves.

@@ -111,8 +111,9 @@ class PairChecks {
       if (!report.mask.empty()) sampler_.exclude(report.mask);
       const RigModel& model = rig.measures.model = fitRig(camera_, samples, windows);
       rig.measures.rest = checkModel(camera_, samples, model, windows, applied_px_, report);
-      const bool fits = rig.measures.rest.unexplained_px.value < model.fix_rows_px;
-      is_explained_ = areDoubtful() && (is_of_no_pair_ || !fits);
+      // Most motions, or a quarter if images are no pairs, are in doubt because of the fault.
+      const bool fits = !is_of_no_pair_ && rig.measures.rest.isLittle();
+      is_explained_ = is_of_loss_ && !fits && (is_of_no_pair_ ? 4 : 2) * (pairs_ - ok_) > pairs_;
       if (is_explained_) {
         doubt(report);
       } else {
@@ -158,11 +159,6 @@ class PairChecks {
   }
 
   bool isMostlyLost() const { return 2 * with_motion_ < pairs_; }
-
-  /// Whether most motions, or a quarter if images are no pairs, are in doubt because of the fault.
-  bool areDoubtful() const {
-    return is_of_loss_ && (is_of_no_pair_ ? 4 : 2) * (pairs_ - ok_) > pairs_;
-  }
 
   /// What is not good in the sections of measurements is unknown.
   static void doubt(RigReport& report) {
@@ -295,8 +291,7 @@ class PairChecks {
   std::string fault_;
   std::map<std::string, int> losses_;  // by reason
   std::string commonest_loss_;
-  bool is_of_loss_ = false, is_of_no_pair_ = false;  // the fault
-  bool is_explained_ = false;  // by the fault are the doubts, and what the model does not fit
+  bool is_of_loss_ = false, is_of_no_pair_ = false, is_explained_ = false;
   // How far the features have come, also at the keyframe and at the last pair that was new.
   double at_px_ = 0.0, keyframe_at_px_ = 0.0, taken_at_px_ = 0.0;
   std::int64_t keyframe_stamp_ns_ = 0;

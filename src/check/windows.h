@@ -9,7 +9,7 @@
 
 namespace rotrocc {
 
-constexpr double kDegreesPerRadian = 180.0 / M_PI;
+constexpr double kDegrees = 180.0 / M_PI;
 
 /// A value and its standard deviation.
 struct Estimate {

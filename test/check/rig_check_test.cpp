@@ -207,6 +207,15 @@ std::vector<Fault> faults() {
       "left and right images",
       NAN);
   images(
+      "soft_rows_apart",
+      [](cv::Mat& left, cv::Mat& right) {
+        for (cv::Mat* image : {&left, &right}) cv::GaussianBlur(*image, *image, {}, 2.0);
+        const cv::Mat lower = right.clone();
+        lower.rowRange(14, right.rows).copyTo(right.rowRange(0, right.rows - 14));
+      },
+      "left and right images",
+      NAN);
+  images(
       "swapped",
       [](cv::Mat& left, cv::Mat& right) { std::swap(left, right); },
       "left and right images",

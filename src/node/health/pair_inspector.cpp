@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
 
+#include "common/median.h"
 #include "features/correspondence_finder.h"
 #include "features/image_noise.h"
 #include "input/to_text.h"
@@ -21,7 +23,7 @@ namespace {
 
 constexpr int kFewCorners = 50;
 constexpr double kFewShare = 0.2;  // of the corners that have a disparity
-/// Row offsets tried on images that do not match; matches must exceed chance.
+/// Row offsets that are tried on images that do not match.
 constexpr int kOffsets_px[] = {2, 4, 7, 12, 20};
 constexpr double kClearlyMore = 2.0;
 /// How many more features agree if one side is late.
@@ -165,6 +167,23 @@ std::string whichArePairs(const std::vector<StereoPair>& pairs,
   return text;
 }
 
+/// Rows by which the right image must be shifted down for many more corners to have a disparity;
+/// 0 if there are none. Most rows that are tried are wrong, so that the median is what matches by
+/// chance. `direct`: corners that have a disparity as the images are.
+int offsetOf(const cv::Mat& left, const cv::Mat& right, int direct, MatchCounter& matches) {
+  int rows = 0, most = 0;
+  std::vector<int> counts;
+  for (const int offset : kOffsets_px) {
+    for (const int shift : {offset, -offset}) {
+      counts.push_back(matches.count(left, shifted(right, shift)));
+      if (counts.back() > most) std::tie(rows, most) = std::pair(shift, counts.back());
+    }
+  }
+  const int by_chance = median(counts);
+  const double least = std::max<double>(kClearlyMore * (direct - by_chance), kFewCorners);
+  return most - by_chance >= least ? rows : 0;
+}
+
 /// Why the last of some pairs has no motion, as far as the images show; empty if they do not.
 Explanation explainLoss(const std::vector<StereoPair>& pairs,
                         const OdometryConfig& config,
@@ -187,21 +206,17 @@ Explanation explainLoss(const std::vector<StereoPair>& pairs,
     return {"left and right image are identical: are both topics from the same camera?", true};
   }
   const bool few = direct < kFewShare * matches.corners();
-  const double clearly_more = kClearlyMore * std::max(direct, kFewCorners);
   // What stands still agrees also by chance.
   const bool may_be_swapped = matches.count(right, left) > direct;
   if (const std::string other = whichArePairs(pairs, config, camera, may_be_swapped);
       !other.empty()) {
     return {other, true};
   }
-  for (const int offset : kOffsets_px) {
-    for (const int rows : {offset, -offset}) {
-      if (matches.count(left, shifted(right, rows)) < clearly_more) continue;
-      return {"the images match if the right one is shifted by about " + toText(rows) + " rows: " +
-              (rectifies ? "K, D, R or P of camera_info are wrong; recalibrate"
-                         : "they are not rectified; remap to rectified images, set the parameter "
-                           "rectify for raw ones, or recalibrate")};
-    }
+  if (const int rows = offsetOf(left, right, direct, matches); rows != 0) {
+    return {"the images match if the right one is shifted by about " + toText(rows) + " rows: " +
+            (rectifies ? "K, D, R or P of camera_info are wrong; recalibrate"
+                       : "they are not rectified; remap to rectified images, set the parameter "
+                         "rectify for raw ones, or recalibrate")};
   }
   if (!few) return {};
   return {
