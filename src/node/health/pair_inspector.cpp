@@ -180,7 +180,7 @@ int offsetOf(const cv::Mat& left, const cv::Mat& right, int direct, MatchCounter
     }
   }
   const int by_chance = median(counts);
-  const double least = std::max<double>(kClearlyMore * (direct - by_chance), kFewCorners);
+  const double least = std::max(kClearlyMore * (direct - by_chance), kFewShare * matches.corners());
   return most - by_chance >= least ? rows : 0;
 }
 
