@@ -14,7 +14,7 @@ struct ModelRest {
   Estimate unexplained_px;  ///< of these by no cause: lenses leave some hundredths
   bool is_constant = true;  ///< rows and bias, over time
   /// Whether most of the rows are explained: wrong matches have no cause in common.
-  bool isLittle() const {
+  bool isMostlyExplained() const {
     return unexplained_px.value + 3.0 * unexplained_px.sigma < 0.5 * rows_px;
   }
 };

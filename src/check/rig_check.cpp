@@ -112,7 +112,7 @@ class PairChecks {
       const RigModel& model = rig.measures.model = fitRig(camera_, samples, windows);
       rig.measures.rest = checkModel(camera_, samples, model, windows, applied_px_, report);
       // Most motions, or a quarter if images are no pairs, are in doubt because of the fault.
-      const bool fits = !is_of_no_pair_ && rig.measures.rest.isLittle();
+      const bool fits = !is_of_no_pair_ && rig.measures.rest.isMostlyExplained();
       is_explained_ = is_of_loss_ && !fits && (is_of_no_pair_ ? 4 : 2) * (pairs_ - ok_) > pairs_;
       if (is_explained_) {
         doubt(report);

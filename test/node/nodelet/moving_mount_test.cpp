@@ -15,8 +15,6 @@
 namespace rotrocc {
 namespace {
 
-constexpr std::chrono::milliseconds kSoon(200);
-
 /// Along the base's x axis, and looking along it.
 geometry_msgs::TransformStamped mountAt(double x_m,
                                         const ros::Time& stamp,

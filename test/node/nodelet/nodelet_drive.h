@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -19,6 +20,9 @@
 #include "support/wait_until.h"
 
 namespace rotrocc {
+
+/// Time to wait for a message that may not come.
+constexpr std::chrono::milliseconds kSoon(200);
 
 /// The latest entries of /diagnostics.
 class DiagnosticsListener {
