@@ -200,14 +200,6 @@ std::vector<Fault> faults() {
       NAN);
   images(
       "rows_apart",
-      [](cv::Mat&, cv::Mat& right) {
-        const cv::Mat lower = right.clone();
-        lower.rowRange(7, right.rows).copyTo(right.rowRange(0, right.rows - 7));
-      },
-      "left and right images",
-      NAN);
-  images(
-      "soft_rows_apart",
       [](cv::Mat& left, cv::Mat& right) {
         for (cv::Mat* image : {&left, &right}) cv::GaussianBlur(*image, *image, {}, 2.0);
         const cv::Mat lower = right.clone();

@@ -1,6 +1,10 @@
 #include "node/health/pair_inspector.h"
 
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 namespace rotrocc {
 namespace {
@@ -108,6 +112,61 @@ TEST_F(DarkImagesTest, SingleDoubtfulPairsCauseNoHint) {
     inspect(State::kOk);
     inspector_.finish();
   }
+}
+
+/// The hint of pairs that are lost, whose right images are so many rows lower. `detail_px`:
+/// Gaussian sigma of the smallest detail.
+std::string hintOfRows(int rows, double detail_px, int halvings) {
+  constexpr int kMargin_px = 60;
+  constexpr int kDisparity_px = 20;
+  StereoCamera camera;
+  camera.width = 640;
+  camera.height = 480;
+  camera.fx = camera.fy = 400.0;
+  camera.cx = camera.cx_right = 320.0;
+  camera.cy = 240.0;
+  camera.baseline_m = 0.1;
+  cv::Mat scene(camera.height + 2 * kMargin_px, camera.width + 2 * kMargin_px, CV_32FC1);
+  cv::RNG random(1);
+  random.fill(scene, cv::RNG::NORMAL, 0.0, 1.0);
+  cv::GaussianBlur(scene, scene, {}, detail_px);
+  cv::normalize(scene, scene, 0.0, 255.0, cv::NORM_MINMAX, CV_8U);
+  const cv::Size size(camera.width, camera.height);
+  const cv::Mat left = scene(cv::Rect({kMargin_px, kMargin_px}, size));
+  const cv::Mat right = scene(cv::Rect({kMargin_px + kDisparity_px, kMargin_px - rows}, size));
+  OdometryResult result;
+  result.state = State::kLost;
+  result.contrast_gain = 1.0;
+  result.counts.tries = 1;
+  result.halvings = halvings;
+  PairInspector inspector{OdometryConfig()};
+  for (int i = 0; i < PairInspector::kPatience; ++i)
+    inspector.inspect({i, left, right}, camera, result);
+  return inspector.finish();
+}
+
+TEST(RowsApartTest, AreNamedInPixelsOfTheImage) {
+  constexpr char kShifted[] = "the images match if the right one is shifted by about ";
+  for (const int halvings : {0, 1}) {
+    for (int rows : {-12, -6, 5, 9}) {
+      rows *= 1 << halvings;
+      const std::string hint = hintOfRows(rows, 2.0 * (1 + halvings), halvings);
+      ASSERT_EQ(hint.rfind(kShifted, 0), 0U) << rows << ": " << hint;
+      // Each second row is tried, and windows match in the rows beside theirs.
+      EXPECT_NEAR(std::stoi(hint.substr(sizeof(kShifted) - 1)), -rows, 2 << halvings);
+    }
+  }
+}
+
+TEST(RowsApartTest, WhatMatchesByChanceIsNoPair) {
+  const std::string hint = hintOfRows(50, 4.0, 1);
+  EXPECT_EQ(hint.rfind("hardly any corner matches in the right image, except by chance", 0), 0U)
+      << hint;
+}
+
+TEST(RowsApartTest, RowsThatMatchExplainNothing) {
+  EXPECT_EQ(hintOfRows(0, 2.0, 0), "");
+  EXPECT_EQ(hintOfRows(0, 4.0, 1), "");
 }
 
 }  // namespace

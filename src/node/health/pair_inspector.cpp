@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "common/median.h"
 #include "features/correspondence_finder.h"
 #include "features/image_noise.h"
+#include "features/image_pyramid.h"
 #include "input/to_text.h"
 #include "motion/feature_errors.h"
 
@@ -22,9 +22,7 @@ namespace rotrocc {
 namespace {
 
 constexpr int kFewCorners = 50;
-constexpr double kFewShare = 0.2;  // of the corners that have a disparity
-/// Row offsets that are tried on images that do not match.
-constexpr int kOffsets_px[] = {2, 4, 7, 12, 20};
+constexpr double kFewShare = 0.2;  // of the corners that match beyond chance
 constexpr double kClearlyMore = 2.0;
 /// How many more features agree if one side is late.
 constexpr double kClearlyMoreAgree = 1.5;
@@ -38,36 +36,37 @@ constexpr double kApart = 2.0;
 /// Share of the gains that is dropped at either end: single pairs may be wrong.
 constexpr double kDropped = 0.1;
 
-/// The image shifted down by `rows`, or up if negative.
-cv::Mat shifted(const cv::Mat& image, int rows) {
-  cv::Mat result = cv::Mat::zeros(image.size(), image.type());
-  const int kept = image.rows - std::abs(rows);
-  image.rowRange(std::max(-rows, 0), std::max(-rows, 0) + kept)
-      .copyTo(result.rowRange(std::max(rows, 0), std::max(rows, 0) + kept));
-  return result;
-}
-
-/// Counts the corners of an image that have a disparity.
+/// Counts the corners of the left image that have a disparity, in the images as the odometry sees
+/// them: in soft ones that are not halved, half of the corners match by chance.
 class MatchCounter {
  public:
-  MatchCounter(const CorrespondenceFinder::Config& config, const StereoCamera& camera)
-      : detector_(config.feature_detector), matcher_(config.stereo_matcher), camera_(camera) {}
+  MatchCounter(const CorrespondenceFinder::Config& config,
+               const cv::Mat& left,
+               const cv::Mat& right,
+               const StereoCamera& camera,
+               int halvings)
+      : matcher_(config.stereo_matcher), camera_(camera.halved(halvings)) {
+    buildPyramid(left, halvings + 1, 0, left_);
+    buildPyramid(right, halvings + 1, 0, right_);
+    FeatureDetector(config.feature_detector).detect(left_.back(), corners_);
+  }
 
-  int count(const cv::Mat& left, const cv::Mat& right) {
-    detector_.detect(left, corners_);
-    const RectifiedImages images = {left, right, camera_};
+  /// In right rows that are `lower_px` lower.
+  int count(int lower_px = 0) const {
+    const RectifiedImages images = {
+        left_.back(), right_.back(), camera_, static_cast<double>(lower_px)};
     return static_cast<int>(
         std::count_if(corners_.begin(), corners_.end(), [&](const cv::Point2f& corner) {
           return matcher_.match(images, corner).has_value();
         }));
   }
 
-  /// Of the last image.
   int corners() const { return static_cast<int>(corners_.size()); }
+  int rows() const { return left_.back().rows; }
 
  private:
-  FeatureDetector detector_;
   StereoMatcher matcher_;
+  ImagePyramid left_, right_;
   StereoCamera camera_;
   std::vector<cv::Point2f> corners_;
 };
@@ -167,32 +166,43 @@ std::string whichArePairs(const std::vector<StereoPair>& pairs,
   return text;
 }
 
-/// Rows by which the right image must be shifted down for many more corners to have a disparity;
-/// 0 if there are none. Most rows that are tried are wrong, so that the median is what matches by
-/// chance. `direct`: corners that have a disparity as the images are.
-int offsetOf(const cv::Mat& left, const cv::Mat& right, int direct, MatchCounter& matches) {
-  int rows = 0, most = 0;
+/// The right rows in which most corners match, except those where they should.
+struct OtherRows {
+  int lower_px = 0;
+  int count = 0;
+  int by_chance = 0;  ///< the median: most rows are wrong
+};
+
+OtherRows searchRows(const MatchCounter& matches) {
+  constexpr int kStep = 2;                // windows match in the rows beside theirs
+  constexpr double kMostRows = 1.0 / 16;  // of the image: as much as raw images are apart
+  const int farthest = std::max(kStep, cvRound(kMostRows * matches.rows()));
+  OtherRows found;
   std::vector<int> counts;
-  for (const int offset : kOffsets_px) {
-    for (const int shift : {offset, -offset}) {
-      counts.push_back(matches.count(left, shifted(right, shift)));
-      if (counts.back() > most) std::tie(rows, most) = std::pair(shift, counts.back());
+  for (int rows = kStep; rows <= farthest; rows += kStep) {
+    for (const int lower_px : {rows, -rows}) {
+      counts.push_back(matches.count(lower_px));
+      if (counts.back() <= found.count) continue;
+      found.count = counts.back();
+      found.lower_px = lower_px;
     }
   }
-  const int by_chance = median(counts);
-  const double least = std::max(kClearlyMore * (direct - by_chance), kFewShare * matches.corners());
-  return most - by_chance >= least ? rows : 0;
+  found.by_chance = median(counts);
+  return found;
 }
 
 /// Why the last of some pairs has no motion, as far as the images show; empty if they do not.
 Explanation explainLoss(const std::vector<StereoPair>& pairs,
                         const OdometryConfig& config,
                         const StereoCamera& camera,
+                        int halvings,
                         bool rectifies,
                         const GrayRange& range) {
   const cv::Mat &left = pairs.back().left, &right = pairs.back().right;
-  MatchCounter matches(config.correspondence_finder, camera);
-  const int direct = matches.count(left, right);
+  const auto between = [&](const cv::Mat& image, const cv::Mat& other) {
+    return MatchCounter(config.correspondence_finder, image, other, camera, halvings);
+  };
+  const MatchCounter matches = between(left, right);
   if (matches.corners() < kFewCorners || isNoise(left)) {
     return {"the left image has hardly any corners, its mean gray level is " +
             toText(cvRound(cv::mean(left)[0])) + " of 255" +
@@ -205,22 +215,26 @@ Explanation explainLoss(const std::vector<StereoPair>& pairs,
   if (cv::norm(left, right, cv::NORM_INF) == 0.0) {
     return {"left and right image are identical: are both topics from the same camera?", true};
   }
-  const bool few = direct < kFewShare * matches.corners();
+  const int direct = matches.count();
   // What stands still agrees also by chance.
-  const bool may_be_swapped = matches.count(right, left) > direct;
-  if (const std::string other = whichArePairs(pairs, config, camera, may_be_swapped);
-      !other.empty()) {
-    return {other, true};
+  const bool may_be_swapped = between(right, left).count() > direct;
+  if (const std::string pairs_are = whichArePairs(pairs, config, camera, may_be_swapped);
+      !pairs_are.empty()) {
+    return {pairs_are, true};
   }
-  if (const int rows = offsetOf(left, right, direct, matches); rows != 0) {
-    return {"the images match if the right one is shifted by about " + toText(rows) + " rows: " +
+  const OtherRows other = searchRows(matches);
+  const double few = kFewShare * matches.corners();
+  if (other.count - other.by_chance >= std::max(kClearlyMore * (direct - other.by_chance), few)) {
+    return {"the images match if the right one is shifted by about " +
+            toText(-other.lower_px * (1 << halvings)) + " rows: " +
             (rectifies ? "K, D, R or P of camera_info are wrong; recalibrate"
                        : "they are not rectified; remap to rectified images, set the parameter "
                          "rectify for raw ones, or recalibrate")};
   }
-  if (!few) return {};
+  if (direct - other.by_chance >= few) return {};
   return {
-      "hardly any corner matches in the right image: are the images rectified and synchronized, "
+      "hardly any corner matches in the right image, except by chance: are the images rectified "
+      "and synchronized, "
       "and is nearest_baselines small enough for near objects?"};
 }
 
@@ -257,7 +271,7 @@ std::string PairInspector::inspect(const StereoPair& pair,
   }
   ++doubtful_;
   try {
-    explain(pair, camera, range, before);
+    explain(pair, camera, result.halvings, range, before);
   } catch (const std::exception&) {
     return fault;  // no memory, or no thread
   }
@@ -268,6 +282,7 @@ std::string PairInspector::inspect(const StereoPair& pair,
 /// Throws std::exception if it cannot be looked for.
 void PairInspector::explain(const StereoPair& pair,
                             const StereoCamera& camera,
+                            int halvings,
                             const GrayRange& range,
                             const PairsBefore& before) {
   if (search_.valid()) {
@@ -283,12 +298,16 @@ void PairInspector::explain(const StereoPair& pair,
   } catch (const std::exception&) {  // one of them is damaged: lateness is not reported
   }
   pairs.push_back(copyOf(pair));
-  search_ = std::async(
-      std::launch::async,
-      [pairs = std::move(pairs), config = config_, camera, rectifies = rectifies_, range] {
-        pthread_setname_np(pthread_self(), "odometry_hint");
-        return explainLoss(pairs, config, camera, rectifies, range);
-      });
+  search_ = std::async(std::launch::async,
+                       [pairs = std::move(pairs),
+                        config = config_,
+                        camera,
+                        halvings,
+                        rectifies = rectifies_,
+                        range] {
+                         pthread_setname_np(pthread_self(), "odometry_hint");
+                         return explainLoss(pairs, config, camera, halvings, rectifies, range);
+                       });
 }
 
 OdometryResult PairInspector::distrusted(OdometryResult result) const {

@@ -73,6 +73,7 @@ class PairInspector {
   std::string compareExposures(const OdometryResult& result);
   void explain(const StereoPair& pair,
                const StereoCamera& camera,
+               int halvings,
                const GrayRange& range,
                const PairsBefore& before);
 
