@@ -15,10 +15,13 @@ namespace rotrocc {
 /// positive if a point is lower in the right image. Has no state except reused buffers.
 class RowSearch {
  public:
+  /// Largest offset at which corners are found, in pixels of detail.
+  static constexpr int kMaxRows = 3;
+
   explicit RowSearch(const CorrespondenceFinderConfig& config);
 
-  /// Offsets [px] of a sample of the keyframe's corners. They may be up to 3 px and need not be
-  /// known before: several rows are searched.
+  /// Offsets [px] of a sample of the keyframe's corners. They may be up to kMaxRows and need not
+  /// be known before: several rows are searched.
   std::vector<float> search(const StereoCamera& camera, const Keyframe& keyframe);
 
   /// Sets `offsets_px` to those of a sample of the flagged features of `current`, near

@@ -329,21 +329,20 @@ TEST(VisualOdometryTest, GoesOnWithOtherParameters) {
   EXPECT_NEAR(after.disparity_bias.applied_px, before.disparity_bias.applied_px, 0.05);
 }
 
-/// Each pixel of a pair becomes four.
-StereoPair enlarged(StereoPair pair) {
+StereoPair enlarged(StereoPair pair, double factor) {
   for (cv::Mat* image : {&pair.left, &pair.right}) {
-    cv::resize(*image, *image, {}, 2.0, 2.0, cv::INTER_CUBIC);
+    cv::resize(*image, *image, {}, factor, factor, cv::INTER_CUBIC);
   }
   return pair;
 }
 
-StereoCamera enlarged(StereoCamera camera) {
-  camera.width *= 2;
-  camera.height *= 2;
-  for (double* px : {&camera.fx, &camera.fy, &camera.cx, &camera.cy, &camera.cx_right}) *px *= 2.0;
-  camera.cx += 0.5;
-  camera.cy += 0.5;
-  camera.cx_right += 0.5;
+StereoCamera enlarged(StereoCamera camera, double factor) {
+  camera.width = cvRound(factor * camera.width);
+  camera.height = cvRound(factor * camera.height);
+  for (double* px : {&camera.fx, &camera.fy}) *px *= factor;
+  for (double* px : {&camera.cx, &camera.cy, &camera.cx_right}) {
+    *px = factor * (*px + 0.5) - 0.5;
+  }
   return camera;
 }
 
@@ -352,7 +351,7 @@ TEST(VisualOdometryTest, EnlargedImagesAreUsedAtTheirOwnSize) {
   config.correspondence_finder.feature_detector.max_features = 300;  // the halved ones have room
   VisualOdometry odometry(config);
   for (int i = 0; i < 4; ++i) {
-    const OdometryResult result = odometry.process(enlarged(bend(i)), enlarged(camera()));
+    const OdometryResult result = odometry.process(enlarged(bend(i), 2.0), enlarged(camera(), 2.0));
     EXPECT_EQ(result.halvings, 1);
     if (i == 0) continue;
     ASSERT_EQ(result.state, State::kOk) << result.reason;
@@ -363,6 +362,23 @@ TEST(VisualOdometryTest, EnlargedImagesAreUsedAtTheirOwnSize) {
       most_px = std::max(most_px, feature.cur_px.x());
     }
     EXPECT_GT(most_px, camera().width) << "in pixels of the whole image";
+  }
+}
+
+TEST(VisualOdometryTest, CorrectsAsManyRowsOfTheDetail) {
+  constexpr double kFactor = 1.5;
+  VisualOdometry::Config config;
+  config.correspondence_finder.feature_detector.max_features = 800;  // halved ones have no room
+  for (const double rows : {-3.0, 3.0}) {
+    VisualOdometry odometry(config);
+    for (int i = 0; i < 8; ++i) {
+      const OdometryResult result = odometry.process(enlarged(bendWithRightLower(i, rows), kFactor),
+                                                     enlarged(camera(), kFactor));
+      EXPECT_EQ(result.halvings, 0);
+      if (i < 4) continue;  // see CorrectsTheRowsOfARig
+      EXPECT_NEAR(result.row_offset.applied_px, kFactor * rows, 0.2 * kFactor);
+      EXPECT_EQ(result.state, State::kOk) << result.reason;
+    }
   }
 }
 
