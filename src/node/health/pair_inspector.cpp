@@ -15,6 +15,7 @@
 #include "features/correspondence_finder.h"
 #include "features/image_noise.h"
 #include "features/image_pyramid.h"
+#include "features/row_search.h"
 #include "input/to_text.h"
 #include "motion/feature_errors.h"
 
@@ -22,7 +23,7 @@ namespace rotrocc {
 namespace {
 
 constexpr int kFewCorners = 50;
-constexpr double kFewShare = 0.2;  // of the corners that match beyond chance
+constexpr double kFewShare = 0.2;  // of corners that match beyond chance, or agree on a motion
 constexpr double kClearlyMore = 2.0;
 /// How many more features agree if one side is late.
 constexpr double kClearlyMoreAgree = 1.5;
@@ -81,7 +82,7 @@ bool standsStill(const VisualOdometry& odometry, double flow_noise_px) {
 /// The features that agree on the motion from a pair to the next.
 struct Agreement {
   std::size_t count;
-  bool is_ok;  ///< the motion is not in doubt
+  bool is_clear;  ///< the motion is not in doubt, or more agree on it than by chance
   bool stands_still;
 };
 
@@ -93,8 +94,10 @@ Agreement agreementOf(OdometryConfig config,
   odometry.process(earlier, camera);
   const OdometryResult result = odometry.process(later, camera);
   const FeatureSet& inliers = odometry.translationInliers();
-  return {static_cast<std::size_t>(std::count(inliers.begin(), inliers.end(), 1)),
-          result.state == State::kOk,
+  const auto count = static_cast<std::size_t>(std::count(inliers.begin(), inliers.end(), 1));
+  const double few = kFewShare * config.correspondence_finder.feature_detector.max_features;
+  return {count,
+          result.state == State::kOk || static_cast<double>(count) > few,
           standsStill(odometry, result.flow_noise_px)};
 }
 
@@ -136,7 +139,7 @@ std::string whichArePairs(const std::vector<StereoPair>& pairs,
     const Agreement agreement = agreementOf(config, of, earlier, later);
     // What stands still while the rest moves, as a part of the robot, is of any moment and place.
     const bool may_stand_still = is_of_one_moment && direct.stands_still;
-    const bool shows_it = agreement.is_ok && (may_stand_still || !agreement.stands_still);
+    const bool shows_it = agreement.is_clear && (may_stand_still || !agreement.stands_still);
     if (!shows_it || agreement.count <= most) return;
     most = agreement.count;
     text = explanation;
@@ -166,7 +169,7 @@ std::string whichArePairs(const std::vector<StereoPair>& pairs,
   return text;
 }
 
-/// The right rows in which most corners match, except those where they should.
+/// The right rows in which most corners match, except those that the odometry searches.
 struct OtherRows {
   int lower_px = 0;
   int count = 0;
@@ -176,10 +179,11 @@ struct OtherRows {
 OtherRows searchRows(const MatchCounter& matches) {
   constexpr int kStep = 2;                // windows match in the rows beside theirs
   constexpr double kMostRows = 1.0 / 16;  // of the image: as much as raw images are apart
-  const int farthest = std::max(kStep, cvRound(kMostRows * matches.rows()));
+  constexpr int kNearest = RowSearch::kMaxRows + 1;
+  const int farthest = std::max(kNearest, cvRound(kMostRows * matches.rows()));
   OtherRows found;
   std::vector<int> counts;
-  for (int rows = kStep; rows <= farthest; rows += kStep) {
+  for (int rows = kNearest; rows <= farthest; rows += kStep) {
     for (const int lower_px : {rows, -rows}) {
       counts.push_back(matches.count(lower_px));
       if (counts.back() <= found.count) continue;
@@ -338,7 +342,8 @@ std::string PairInspector::finish() {
     const Explanation found = search_.get();
     if (!search_is_of_this_loss_) return explanation_.text;
     // Not each pair shows it.
-    found_nothing_ = found.text.empty() ? found_nothing_ + 1 : 0;
+    const bool is_less = found.is_guess && !explanation_.text.empty();
+    found_nothing_ = found.text.empty() || is_less ? found_nothing_ + 1 : 0;
     if (found_nothing_ == 0 || found_nothing_ >= kSearches) explanation_ = found;
   }
   return explanation_.text;
@@ -364,7 +369,7 @@ void RecordingInspector::trySinglePair(const StereoPair& pair, const StereoCamer
   ++tried_;
   const auto agreesMore = [&](const StereoPair& other, std::size_t count) {
     const Agreement agreement = agreementOf(config_, camera, *last_ok_, other);
-    return agreement.is_ok && !agreement.stands_still && agreement.count > count;
+    return agreement.is_clear && !agreement.stands_still && agreement.count > count;
   };
   const StereoPair& earlier = before_.back();
   const std::size_t few = agreementOf(config_, camera, *last_ok_, pair).count;

@@ -23,6 +23,7 @@ StereoPair copyOf(StereoPair pair);
 struct Explanation {
   std::string text;
   bool is_of_no_pair = false;
+  bool is_guess = false;  ///< another one says more
 };
 
 /// Detects camera faults: a dark camera, swapped cameras, images that are not rectified, one side
