@@ -115,8 +115,8 @@ TEST_F(DarkImagesTest, SingleDoubtfulPairsCauseNoHint) {
 }
 
 /// The hint of pairs that are lost, whose right images are so many rows lower. `detail_px`:
-/// Gaussian sigma of the smallest detail.
-std::string hintOfRows(int rows, double detail_px, int halvings) {
+/// Gaussian sigma of the smallest detail. `corrected`: rows that the odometry corrects.
+std::string hintOfRows(int rows, double detail_px, int halvings, int corrected = 0) {
   constexpr int kMargin_px = 60;
   constexpr int kDisparity_px = 20;
   StereoCamera camera;
@@ -139,6 +139,7 @@ std::string hintOfRows(int rows, double detail_px, int halvings) {
   result.contrast_gain = 1.0;
   result.counts.tries = 1;
   result.halvings = halvings;
+  result.row_offset.applied_px = corrected;
   PairInspector inspector{OdometryConfig()};
   for (int i = 0; i < PairInspector::kPatience; ++i)
     inspector.inspect({i, left, right}, camera, result);
@@ -167,6 +168,7 @@ TEST(RowsApartTest, WhatMatchesByChanceIsNoPair) {
 TEST(RowsApartTest, RowsThatMatchExplainNothing) {
   EXPECT_EQ(hintOfRows(0, 2.0, 0), "");
   EXPECT_EQ(hintOfRows(0, 4.0, 1), "");
+  EXPECT_EQ(hintOfRows(8, 4.0, 1, 8), "") << "they are corrected";
 }
 
 }  // namespace

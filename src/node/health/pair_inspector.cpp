@@ -45,17 +45,18 @@ class MatchCounter {
                const cv::Mat& left,
                const cv::Mat& right,
                const StereoCamera& camera,
-               int halvings)
-      : matcher_(config.stereo_matcher), camera_(camera.halved(halvings)) {
-    buildPyramid(left, halvings + 1, 0, left_);
-    buildPyramid(right, halvings + 1, 0, right_);
+               const OdometryResult& result)
+      : matcher_(config.stereo_matcher),
+        camera_(camera.halved(result.halvings)),
+        corrected_px_(std::ldexp(result.row_offset.applied_px, -result.halvings)) {
+    buildPyramid(left, result.halvings + 1, 0, left_);
+    buildPyramid(right, result.halvings + 1, 0, right_);
     FeatureDetector(config.feature_detector).detect(left_.back(), corners_);
   }
 
-  /// In right rows that are `lower_px` lower.
+  /// In right rows that are `lower_px` lower than the odometry expects.
   int count(int lower_px = 0) const {
-    const RectifiedImages images = {
-        left_.back(), right_.back(), camera_, static_cast<double>(lower_px)};
+    const RectifiedImages images = {left_.back(), right_.back(), camera_, corrected_px_ + lower_px};
     return static_cast<int>(
         std::count_if(corners_.begin(), corners_.end(), [&](const cv::Point2f& corner) {
           return matcher_.match(images, corner).has_value();
@@ -69,6 +70,7 @@ class MatchCounter {
   StereoMatcher matcher_;
   ImagePyramid left_, right_;
   StereoCamera camera_;
+  double corrected_px_;
   std::vector<cv::Point2f> corners_;
 };
 
@@ -199,12 +201,12 @@ OtherRows searchRows(const MatchCounter& matches) {
 Explanation explainLoss(const std::vector<StereoPair>& pairs,
                         const OdometryConfig& config,
                         const StereoCamera& camera,
-                        int halvings,
+                        const OdometryResult& result,
                         bool rectifies,
                         const GrayRange& range) {
   const cv::Mat &left = pairs.back().left, &right = pairs.back().right;
   const auto between = [&](const cv::Mat& image, const cv::Mat& other) {
-    return MatchCounter(config.correspondence_finder, image, other, camera, halvings);
+    return MatchCounter(config.correspondence_finder, image, other, camera, result);
   };
   const MatchCounter matches = between(left, right);
   if (matches.corners() < kFewCorners || isNoise(left)) {
@@ -230,7 +232,9 @@ Explanation explainLoss(const std::vector<StereoPair>& pairs,
   const double few = kFewShare * matches.corners();
   if (other.count - other.by_chance >= std::max(kClearlyMore * (direct - other.by_chance), few)) {
     return {"the images match if the right one is shifted by about " +
-            toText(-other.lower_px * (1 << halvings)) + " rows: " +
+            toText(-cvRound(result.row_offset.applied_px +
+                            std::ldexp(other.lower_px, result.halvings))) +
+            " rows: " +
             (rectifies ? "K, D, R or P of camera_info are wrong; recalibrate"
                        : "they are not rectified; remap to rectified images, set the parameter "
                          "rectify for raw ones, or recalibrate")};
@@ -275,7 +279,7 @@ std::string PairInspector::inspect(const StereoPair& pair,
   }
   ++doubtful_;
   try {
-    explain(pair, camera, result.halvings, range, before);
+    explain(pair, camera, result, range, before);
   } catch (const std::exception&) {
     return fault;  // no memory, or no thread
   }
@@ -286,7 +290,7 @@ std::string PairInspector::inspect(const StereoPair& pair,
 /// Throws std::exception if it cannot be looked for.
 void PairInspector::explain(const StereoPair& pair,
                             const StereoCamera& camera,
-                            int halvings,
+                            const OdometryResult& result,
                             const GrayRange& range,
                             const PairsBefore& before) {
   if (search_.valid()) {
@@ -302,16 +306,12 @@ void PairInspector::explain(const StereoPair& pair,
   } catch (const std::exception&) {  // one of them is damaged: lateness is not reported
   }
   pairs.push_back(copyOf(pair));
-  search_ = std::async(std::launch::async,
-                       [pairs = std::move(pairs),
-                        config = config_,
-                        camera,
-                        halvings,
-                        rectifies = rectifies_,
-                        range] {
-                         pthread_setname_np(pthread_self(), "odometry_hint");
-                         return explainLoss(pairs, config, camera, halvings, rectifies, range);
-                       });
+  search_ = std::async(
+      std::launch::async,
+      [pairs = std::move(pairs), config = config_, camera, result, rectifies = rectifies_, range] {
+        pthread_setname_np(pthread_self(), "odometry_hint");
+        return explainLoss(pairs, config, camera, result, rectifies, range);
+      });
 }
 
 OdometryResult PairInspector::distrusted(OdometryResult result) const {

@@ -74,7 +74,7 @@ class PairInspector {
   std::string compareExposures(const OdometryResult& result);
   void explain(const StereoPair& pair,
                const StereoCamera& camera,
-               int halvings,
+               const OdometryResult& result,
                const GrayRange& range,
                const PairsBefore& before);
 
