@@ -63,10 +63,14 @@ std::optional<double> sharpnessOf(const cv::Mat* images, std::vector<int>& buffe
 
 void BaseLevel::observe(const ImagePyramid& image) {
   const int levels = std::min<int>(kMaxLevel + 1, static_cast<int>(image.size()) - 2);
-  for (level_ = 0; level_ < levels; ++level_) {
+  for (level_ = 0; level_ + 1 < levels; ++level_) {
+    const auto pixels = static_cast<double>(image[level_ + 1].total());
+    const double windows = pixels / kWindow_px2 / config_.max_features;
+    if (level_ < config_.min_halvings && windows >= 1.0) continue;
     observeLevel(&image[level_]);
-    if (level_ + 1 == levels || !isSkipped(image[level_ + 1])) break;
+    if (!is_empty_[level_] && !(is_soft_[level_] && windows >= kRoom)) return;
   }
+  if (levels > 0) observeLevel(&image[level_]);
 }
 
 /// Enlarging an image by a factor divides its sharpness by about the square of the factor.
@@ -84,12 +88,6 @@ void BaseLevel::observeLevel(const cv::Mat* images) {
   };
   compare(kSoft, is_soft_[level_]);
   compare(kEmpty, is_empty_[level_]);
-}
-
-bool BaseLevel::isSkipped(const cv::Mat& next) const {
-  const double windows = static_cast<double>(next.total()) / kWindow_px2 / config_.max_features;
-  return is_empty_[level_] || (is_soft_[level_] && windows >= kRoom) ||
-         (level_ < config_.min_halvings && windows >= 1.0);
 }
 
 }  // namespace rotrocc

@@ -43,7 +43,6 @@ class BaseLevel {
 
  private:
   void observeLevel(const cv::Mat* images);
-  bool isSkipped(const cv::Mat& next) const;
 
   FeatureDetectorConfig config_;
   int level_ = 0;
