@@ -264,6 +264,9 @@ void run(const Options& options) {
   progress.finish();
   outputs.printSummary(std::cout);
   if (cause.empty()) cause = inspector.faultOfSinglePairs();
+  if (cause.empty() && inspector.inspector().isUnexplained()) {
+    cause = "single pairs do not show it; `rosrun rotrocc check_rig INPUT` compares all of them";
+  }
   if (!cause.empty()) std::cout << "likely cause of lost or degraded pairs: " << cause << '\n';
   if (gyro) gyro->printSummary(std::cout);
   if (preloaded) preloaded->printMemory();

@@ -1,7 +1,6 @@
 #include "node/health/pair_inspector.h"
 
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -114,39 +113,52 @@ TEST_F(DarkImagesTest, SingleDoubtfulPairsCauseNoHint) {
   }
 }
 
-/// The hint of pairs that are lost, whose right images are so many rows lower. `detail_px`:
-/// Gaussian sigma of the smallest detail. `corrected`: rows that the odometry corrects.
-std::string hintOfRows(int rows, double detail_px, int halvings, int corrected = 0) {
-  constexpr int kMargin_px = 60;
-  constexpr int kDisparity_px = 20;
-  StereoCamera camera;
-  camera.width = 640;
-  camera.height = 480;
-  camera.fx = camera.fy = 400.0;
-  camera.cx = camera.cx_right = 320.0;
-  camera.cy = 240.0;
-  camera.baseline_m = 0.1;
-  cv::Mat scene(camera.height + 2 * kMargin_px, camera.width + 2 * kMargin_px, CV_32FC1);
-  cv::RNG random(1);
-  random.fill(scene, cv::RNG::NORMAL, 0.0, 1.0);
-  cv::GaussianBlur(scene, scene, {}, detail_px);
-  cv::normalize(scene, scene, 0.0, 255.0, cv::NORM_MINMAX, CV_8U);
-  const cv::Size size(camera.width, camera.height);
-  const cv::Mat left = scene(cv::Rect({kMargin_px, kMargin_px}, size));
-  const cv::Mat right = scene(cv::Rect({kMargin_px + kDisparity_px, kMargin_px - rows}, size));
-  OdometryResult result;
-  result.state = State::kLost;
-  result.contrast_gain = 1.0;
-  result.counts.tries = 1;
-  result.halvings = halvings;
-  result.row_offset.applied_px = corrected;
-  PairInspector inspector{OdometryConfig()};
-  for (int i = 0; i < PairInspector::kPatience; ++i)
-    inspector.inspect({i, left, right}, camera, result);
-  return inspector.finish();
-}
+/// Of pairs that are lost, with as many corners as there is room for.
+class TexturedImagesTest : public testing::Test {
+ protected:
+  TexturedImagesTest() {
+    camera_.width = 640;
+    camera_.height = 480;
+    camera_.fx = camera_.fy = 400.0;
+    camera_.cx = camera_.cx_right = 320.0;
+    camera_.cy = 240.0;
+    camera_.baseline_m = 0.1;
+    result_.state = State::kLost;
+    result_.contrast_gain = 1.0;
+    result_.counts.tries = 1;
+  }
 
-TEST(RowsApartTest, AreNamedInPixelsOfTheImage) {
+  /// The hint if right images are so many rows lower. `detail_px`: Gaussian sigma of the smallest
+  /// detail. `corrected`: rows that the odometry corrects.
+  std::string hintOfRows(int rows, double detail_px, int halvings, int corrected = 0) {
+    constexpr int kMargin_px = 60;
+    constexpr int kDisparity_px = 20;
+    const cv::Size size(camera_.width, camera_.height);
+    cv::Mat scene(size + cv::Size(2 * kMargin_px, 2 * kMargin_px), CV_32FC1);
+    cv::RNG random(1);
+    random.fill(scene, cv::RNG::NORMAL, 0.0, 1.0);
+    cv::GaussianBlur(scene, scene, {}, detail_px);
+    cv::normalize(scene, scene, 0.0, 255.0, cv::NORM_MINMAX, CV_8U);
+    pair_.left = scene(cv::Rect({kMargin_px, kMargin_px}, size));
+    pair_.right = scene(cv::Rect({kMargin_px + kDisparity_px, kMargin_px - rows}, size));
+    result_.halvings = halvings;
+    result_.row_offset.applied_px = corrected;
+    inspector_.reset();
+    inspect(PairInspector::kPatience);
+    return inspector_.finish();
+  }
+
+  void inspect(int count) {
+    for (int i = 0; i < count; ++i) inspector_.inspect(pair_, camera_, result_);
+  }
+
+  PairInspector inspector_{OdometryConfig()};
+  StereoPair pair_;
+  StereoCamera camera_;
+  OdometryResult result_;
+};
+
+TEST_F(TexturedImagesTest, NamesRowsInPixelsOfTheImage) {
   constexpr char kShifted[] = "the images match if the right one is shifted by about ";
   for (const int halvings : {0, 1}) {
     for (int rows : {-12, -6, 5, 9}) {
@@ -159,16 +171,26 @@ TEST(RowsApartTest, AreNamedInPixelsOfTheImage) {
   }
 }
 
-TEST(RowsApartTest, WhatMatchesByChanceIsNoPair) {
+TEST_F(TexturedImagesTest, WhatMatchesByChanceIsNoPair) {
   const std::string hint = hintOfRows(50, 4.0, 1);
   EXPECT_EQ(hint.rfind("hardly any corner matches in the right image, except by chance", 0), 0U)
       << hint;
 }
 
-TEST(RowsApartTest, RowsThatMatchExplainNothing) {
+TEST_F(TexturedImagesTest, RowsThatMatchExplainNothing) {
   EXPECT_EQ(hintOfRows(0, 2.0, 0), "");
   EXPECT_EQ(hintOfRows(0, 4.0, 1), "");
   EXPECT_EQ(hintOfRows(8, 4.0, 1, 8), "") << "they are corrected";
+}
+
+TEST_F(TexturedImagesTest, SaysThatSeveralPairsShowNoCause) {
+  EXPECT_EQ(hintOfRows(0, 2.0, 0), "");
+  EXPECT_FALSE(inspector_.isUnexplained()) << "not each pair shows it";
+  inspect(PairInspector::kPatience);
+  EXPECT_EQ(inspector_.finish(), "");
+  EXPECT_TRUE(inspector_.isUnexplained());
+  EXPECT_NE(hintOfRows(10, 2.0, 0), "");
+  EXPECT_FALSE(inspector_.isUnexplained());
 }
 
 }  // namespace

@@ -98,7 +98,10 @@ std::string PairProcessor::inspect(const PairInput& in) {
     for (const auto& received : in.before) pairs.push_back(copyOf(converter.convert(*received)));
     return pairs;
   };
-  return inspector_.inspect(in.pair, in.camera, estimated_, range, before);
+  const std::string fault = inspector_.inspect(in.pair, in.camera, estimated_, range, before);
+  if (!fault.empty() || !inspector_.isUnexplained()) return fault;
+  return "single pairs do not show the cause: record a minute, and run `rosrun rotrocc check_rig` "
+         "on it";
 }
 
 /// Whether initial_pose leaves roll and pitch to gravity.

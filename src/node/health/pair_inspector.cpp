@@ -349,6 +349,10 @@ std::string PairInspector::finish() {
   return explanation_.text;
 }
 
+bool PairInspector::isUnexplained() const {
+  return found_nothing_ >= kSearches && explanation_.text.empty();
+}
+
 std::string RecordingInspector::inspect(const StereoPair& pair,
                                         const StereoCamera& camera,
                                         const OdometryResult& result) {

@@ -70,6 +70,9 @@ class PairInspector {
   /// Waits for what is being looked for. Returns the explanation of a loss; empty if none.
   std::string finish();
 
+  /// Whether searches for the cause of a loss found nothing: single pairs do not show it.
+  bool isUnexplained() const;
+
  private:
   std::string compareExposures(const OdometryResult& result);
   void explain(const StereoPair& pair,
