@@ -15,17 +15,19 @@ constexpr std::size_t kFeatureSample = 16;
 constexpr std::size_t kCorners = 64;
 
 /// Where a corner was found when several rows were searched. If these are not the same place, its
-/// row is unknown.
+/// row is unknown. In pixels of detail.
 struct CornerOffset {
+  static constexpr float kSamePlace_px = 1.0F;
+
   float lowest_px = std::numeric_limits<float>::max();
   float highest_px = std::numeric_limits<float>::lowest();
   float nearest_px = 0.0F;  ///< of the position nearest to where it was searched
   float nearest_distance_px = std::numeric_limits<float>::max();
 
   /// Adds a position at the offset `offset_px`, found by a search at `searched_px`.
-  void add(float offset_px, float searched_px, float same_place_px) {
+  void add(float offset_px, float searched_px) {
     const float distance_px = std::abs(offset_px - searched_px);
-    if (distance_px > same_place_px) return;
+    if (distance_px > kSamePlace_px) return;
     lowest_px = std::min(lowest_px, offset_px);
     highest_px = std::max(highest_px, offset_px);
     if (distance_px >= nearest_distance_px) return;
@@ -33,8 +35,8 @@ struct CornerOffset {
     nearest_px = offset_px;
   }
 
-  bool isUnique(float same_place_px) const {
-    return highest_px >= lowest_px && highest_px - lowest_px <= same_place_px;
+  bool isUnique() const {
+    return highest_px >= lowest_px && highest_px - lowest_px <= kSamePlace_px;
   }
 };
 
@@ -63,12 +65,12 @@ std::vector<float> RowSearch::search(const StereoCamera& camera, const Keyframe&
       if (!match) continue;
       cv::Point2f point = sample_px[i] + cv::Point2f(-match->disparity_px, lower_px);
       if (!tracker_.locate(left, right, sample_px[i], point)) continue;
-      found[i].add(point.y - sample_px[i].y, lower_px, detail_px);
+      found[i].add((point.y - sample_px[i].y) / detail_px, static_cast<float>(rows));
     }
   }
   std::vector<float> offsets_px;
   for (const CornerOffset& of_corner : found) {
-    if (of_corner.isUnique(detail_px)) offsets_px.push_back(of_corner.nearest_px);
+    if (of_corner.isUnique()) offsets_px.push_back(detail_px * of_corner.nearest_px);
   }
   return offsets_px;
 }
