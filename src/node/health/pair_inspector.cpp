@@ -181,7 +181,7 @@ struct OtherRows {
 OtherRows searchRows(const MatchCounter& matches) {
   constexpr int kStep = 2;                // windows match in the rows beside theirs
   constexpr double kMostRows = 1.0 / 16;  // of the image: as much as raw images are apart
-  constexpr int kNearest = RowSearch::kMaxRows + 1;
+  constexpr int kNearest = RowSearch::kMaxRows + 1;  // in soft images it searches more
   const int farthest = std::max(kNearest, cvRound(kMostRows * matches.rows()));
   OtherRows found;
   std::vector<int> counts;
@@ -242,8 +242,9 @@ Explanation explainLoss(const std::vector<StereoPair>& pairs,
   if (direct - other.by_chance >= few) return {};
   return {
       "hardly any corner matches in the right image, except by chance: are the images rectified "
-      "and synchronized, "
-      "and is nearest_baselines small enough for near objects?"};
+      "and synchronized, and is nearest_baselines small enough for near objects?",
+      false,
+      true};
 }
 
 }  // namespace
