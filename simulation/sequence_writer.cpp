@@ -7,7 +7,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "inertial/gyro_file.h"
+#include "files/csv_file.h"
 #include "rotrocc/trajectory.h"
 
 namespace rotrocc {
@@ -114,6 +114,17 @@ void writeAslPoses(const std::string& folder, const Simulator& simulator) {
 
 }  // namespace
 
+void writeGyroscope(const std::string& path, const std::vector<GyroSample>& samples) {
+  CsvFile file(path,
+               "#timestamp [ns],w_x [rad s^-1],w_y [rad s^-1],w_z [rad s^-1],a_x [m s^-2],"
+               "a_y [m s^-2],a_z [m s^-2]");
+  for (const GyroSample& sample : samples) {
+    const Eigen::Vector3d& rate = sample.rate_rps;
+    file << sample.stamp_ns;
+    file.row({rate.x(), rate.y(), rate.z(), 0.0, 0.0, 0.0});
+  }
+}
+
 SequenceWriter::SequenceWriter(const std::string& directory,
                                const Simulator& simulator,
                                const Extras& extras)
@@ -144,7 +155,7 @@ void SequenceWriter::startKitti(const Simulator& simulator, bool with_imu) {
   for (int i = 0; i < simulator.size(); ++i) {
     poses.write({simulator.stamp_ns(i), simulator.pose(i)});
   }
-  if (with_imu) writeGyroFile(directory_ + "/imu.csv", simulator.gyroscope());
+  if (with_imu) writeGyroscope(directory_ + "/imu.csv", simulator.gyroscope());
 }
 
 void SequenceWriter::startAsl(const Simulator& simulator, bool with_imu) {
@@ -175,7 +186,7 @@ void SequenceWriter::startAsl(const Simulator& simulator, bool with_imu) {
   writeSensor(root + "imu0", bodyMount(), nullptr);
   std::vector<GyroSample> samples = simulator.gyroscope();
   for (GyroSample& sample : samples) sample.stamp_ns += kAslStart_ns;
-  writeGyroFile(root + "imu0/data.csv", samples);
+  writeGyroscope(root + "imu0/data.csv", samples);
 }
 
 void SequenceWriter::write(const SimulatedFrame& frame) {

@@ -8,6 +8,10 @@
 
 namespace rotrocc {
 
+/// Writes samples in the layout of data.csv of the EuRoC data set, with accelerations of zero.
+/// Throws std::runtime_error if the file cannot be written.
+void writeGyroscope(const std::string& path, const std::vector<GyroSample>& samples);
+
 /// Writes a simulated drive. If its images are rectified, in the layout of KITTI with
 /// poses.txt, else in ASL format, see AslSequence, with the poses of a body whose x axis looks
 /// forward and stamps from 2011-10-03 on. All but the images is there from the start, and an image

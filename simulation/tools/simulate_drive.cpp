@@ -9,7 +9,6 @@
 #include <boost/program_options.hpp>
 
 #include "bags/sequence_bag_writer.h"
-#include "inertial/gyro_file.h"
 #include "input/to_text.h"
 #include "rotrocc/trajectory.h"
 #include "simulation/drives/scenario.h"
@@ -190,7 +189,7 @@ void run(const Options& options) {
   const std::string extension = fs::path(out).extension();
   const Simulator simulator(chosenScenario(options), options.simulation);
   if (extension == ".csv") {
-    writeGyroFile(out, simulator.gyroscope());
+    writeGyroscope(out, simulator.gyroscope());
   } else if (extension == ".bag") {
     renderBag(simulator, out, options);
   } else {

@@ -51,8 +51,6 @@ class WeightedVariance {
     squared_weights_ += weight * weight;
   }
 
-  double squaredWeights() const { return squared_weights_; }
-
   /// Returns the variance [px^2], or 0 if there are too few residuals.
   double value(int parameters) const {
     const double rows = 2.0 * count_;

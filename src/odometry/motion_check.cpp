@@ -201,27 +201,17 @@ double MotionCheck::informationShare(const Hypothesis& accepted) {
   return leastShare(of_inliers - of_most.transpose() * of_most, of_all);
 }
 
-/// The median of value(feature) over the features of a set that is not empty.
-template <class Value>
-double MotionCheck::medianOf(const Correspondences& features,
-                             const FeatureSet& set,
-                             const Value& value) {
-  values_.clear();
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (set[i] != 0) values_.push_back(value(features[i]));
-  }
-  return median(values_);
-}
-
 std::optional<std::string> MotionCheck::whyUndetermined(const Hypothesis& accepted,
                                                         const Matrix6d& covariance) {
   const MotionEstimate& estimate = accepted.estimate;
-  const double depth_m =
-      medianOf(accepted.features, estimate.rotation_inliers, [](const Correspondence& feature) {
-        return feature.point_cur.z();
-      });
+  depths_m_.clear();
+  for (std::size_t i = 0; i < accepted.features.size(); ++i) {
+    if (estimate.rotation_inliers[i] != 0) {
+      depths_m_.push_back(accepted.features[i].point_cur.z());
+    }
+  }
   const double step_m =
-      std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * depth_m);
+      std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * median(depths_m_));
   const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
   if (sigma_m <= kMaxSigma * step_m) return std::nullopt;
   return "the translation has a standard deviation of " +
@@ -242,10 +232,7 @@ bool MotionCheck::hasReserve(const MotionEstimate& accepted) {
 
 bool MotionCheck::isAtRest(const Hypothesis& accepted) {
   const MotionEstimate& estimate = accepted.estimate;
-  const auto flow_px = [](const Correspondence& feature) {
-    return (feature.keyframe_px - feature.cur_px).norm();
-  };
-  return medianOf(accepted.features, estimate.rotation_inliers, flow_px) <=
+  return medianFlow_px(accepted.features, estimate.rotation_inliers) <=
          kRest * estimate.flow_noise_px;
 }
 

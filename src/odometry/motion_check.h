@@ -74,7 +74,7 @@ class MotionCheck {
 
   /// Whether the camera rests at an accepted motion: the median inlier has moved by less than 6
   /// times the noise of the flow. The noise of a motion is then a sixth of it, or more.
-  bool isAtRest(const Hypothesis& accepted);
+  static bool isAtRest(const Hypothesis& accepted);
 
   /// Why a motion during `dt_s` > 0 is an implausible jump; none if it is not. `expected` is the
   /// motion during `dt_s` at the previous velocity. Changes within 3 standard deviations of the
@@ -94,14 +94,12 @@ class MotionCheck {
   std::optional<std::string> whyUndetermined(const Hypothesis& accepted,
                                              const Matrix6d& covariance);
   double informationShare(const Hypothesis& accepted);
-  template <class Value>
-  double medianOf(const Correspondences& features, const FeatureSet& set, const Value& value);
 
   Config config_;
   bool as_published_;
 
   // Reused.
-  std::vector<double> values_;
+  std::vector<double> depths_m_;
   ReprojectionProblem problem_;
 };
 

@@ -436,22 +436,13 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   // drift at standstill. In motion each frame is the keyframe of the next one, because the errors
   // of a feature grow with the way that it is tracked.
   const bool serves = result.state == State::kOk && MotionCheck::hasReserve(estimate) &&
-                      !config_.isPaper() && check_.isAtRest(found_);
+                      !config_.isPaper() && MotionCheck::isAtRest(found_);
   if (!serves) keyframe_.frame.reset();
 }
 
 const char* toString(State state) {
-  switch (state) {
-    case State::kInitializing:
-      return "initializing";
-    case State::kOk:
-      return "ok";
-    case State::kDegraded:
-      return "degraded";
-    case State::kLost:
-      return "lost";
-  }
-  return "unknown";
+  static const char* const kNames[] = {"initializing", "ok", "degraded", "lost"};
+  return kNames[static_cast<int>(state)];
 }
 
 VisualOdometry::VisualOdometry(const Config& config)

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "files/image_file.h"
-#include "inertial/gyro_file.h"
 #include "sequences/calibration_file.h"
+#include "sequences/gyro_file.h"
 #include "sequences/layouts.h"
 
 namespace rotrocc {

@@ -20,12 +20,12 @@
 
 #include "bags/recorded_pairs.h"
 #include "common/stage_timer.h"
-#include "inertial/gyro_file.h"
 #include "inertial/gyro_predictor.h"
 #include "input/to_text.h"
 #include "node/health/pair_inspector.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/visual_odometry.h"
+#include "sequences/gyro_file.h"
 #include "tools/input_options.h"
 #include "tools/odometry_outputs.h"
 #include "tools/program.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,6 @@
 
 #include "bags/bag_reading.h"
 #include "bags/sequence_bag_writer.h"
-#include "inertial/gyro_file.h"
 #include "sequences/kitti_mount.h"
 #include "sequences/stereo_sequence.h"
 #include "support/read_csv.h"
@@ -273,19 +273,18 @@ TEST_F(OfflineOdometryTest, SaysWhichMountItAssumes) {
       << result.output;
 }
 
-/// Of the drive, whose camera looks to and fro, with a bias.
-std::vector<GyroSample> gyroscope() {
-  std::vector<GyroSample> samples;
+/// Writes samples of a gyroscope with a bias during the drive, whose camera looks to and fro.
+void writeGyroscope(const std::string& path) {
+  std::ofstream file(path);
   for (int i = -1; i < 20 * kPairs; ++i) {
-    const double t = 0.005 * i;
-    samples.push_back({i * 5'000'000LL, {0.01, 0.05 * 3.5 * std::cos(3.5 * t) - 0.02, 0.0}});
+    const double rate_rps = 0.05 * 3.5 * std::cos(3.5 * 0.005 * i) - 0.02;
+    file << i * 5'000'000LL << ",0.01," << rate_rps << ",0,0,0,0\n";
   }
-  return samples;
 }
 
 TEST_F(OfflineOdometryTest, PredictsByAGyroscope) {
   const std::string imu = directory_ / "imu.csv";
-  writeGyroFile(imu, gyroscope());
+  writeGyroscope(imu);
   const CommandResult result = run(sequence() + " --trajectory /dev/null --imu " + imu);
   EXPECT_NE(result.output.find("gyroscope: 11 of 11 rotations predicted"), std::string::npos)
       << result.output;
@@ -295,7 +294,7 @@ TEST_F(OfflineOdometryTest, PredictsByAGyroscope) {
 }
 
 TEST_F(OfflineOdometryTest, PredictsByAGyroscopeOfABag) {
-  writeGyroFile(sequence() + "/imu.csv", gyroscope());
+  writeGyroscope(sequence() + "/imu.csv");
   writeSequenceBag(directory_ / "sequence.bag", sequence());
   const std::string bag = directory_ / "sequence.bag";
   const CommandResult result = run(bag + " --trajectory /dev/null --imu /imu/data");

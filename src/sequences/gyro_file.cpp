@@ -1,6 +1,5 @@
-#include "inertial/gyro_file.h"
+#include "sequences/gyro_file.h"
 
-#include "files/csv_file.h"
 #include "files/image_times.h"
 #include "files/text_file.h"
 
@@ -16,17 +15,6 @@ std::vector<GyroSample> readGyroFile(const std::string& path) {
                        Eigen::Vector3d(line.number(1), line.number(2), line.number(3))});
   }
   return samples;
-}
-
-void writeGyroFile(const std::string& path, const std::vector<GyroSample>& samples) {
-  CsvFile file(path,
-               "#timestamp [ns],w_x [rad s^-1],w_y [rad s^-1],w_z [rad s^-1],a_x [m s^-2],"
-               "a_y [m s^-2],a_z [m s^-2]");
-  for (const GyroSample& sample : samples) {
-    const Eigen::Vector3d& rate = sample.rate_rps;
-    file << sample.stamp_ns;
-    file.row({rate.x(), rate.y(), rate.z(), 0.0, 0.0, 0.0});
-  }
 }
 
 }  // namespace rotrocc

@@ -12,8 +12,4 @@ namespace rotrocc {
 /// with the line on anything else.
 std::vector<GyroSample> readGyroFile(const std::string& path);
 
-/// Writes that layout, with accelerations of zero. Throws std::runtime_error if the file cannot be
-/// written.
-void writeGyroFile(const std::string& path, const std::vector<GyroSample>& samples);
-
 }  // namespace rotrocc

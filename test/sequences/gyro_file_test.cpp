@@ -1,4 +1,4 @@
-#include "inertial/gyro_file.h"
+#include "sequences/gyro_file.h"
 
 #include <gtest/gtest.h>
 
@@ -27,18 +27,6 @@ TEST_F(GyroFileTest, ReadsTheLayoutOfEuroc) {
   EXPECT_EQ(samples[0].rate_rps,
             Eigen::Vector3d(-0.099134701513277898, 0.14730578886832138, 0.02722713633111154));
   EXPECT_EQ(samples[1].stamp_ns, 1403636579763555584);
-}
-
-TEST_F(GyroFileTest, ReadsWhatItWrites) {
-  const std::string path = directory_ / "imu.csv";
-  writeGyroFile(path, {{-3'000'000, {0.25, -1.5, 2e-5}}, {1403636579758555392, {0.0, 1.0, 3.0}}});
-  const auto samples = readGyroFile(path);
-  ASSERT_EQ(samples.size(), 2u);
-  EXPECT_EQ(samples[0].stamp_ns, -3'000'000);
-  EXPECT_EQ(samples[0].rate_rps, Eigen::Vector3d(0.25, -1.5, 2e-5));
-  EXPECT_EQ(samples[1].stamp_ns, 1403636579758555392);
-  expectError<std::runtime_error>([] { writeGyroFile("/nowhere/imu.csv", {}); },
-                                  "/nowhere/imu.csv");
 }
 
 TEST_F(GyroFileTest, NamesTheLineThatIsWrong) {
