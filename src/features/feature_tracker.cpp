@@ -13,10 +13,6 @@ namespace {
 /// Sum of squares [gray levels^2] below which a window is plain: keeps steps finite.
 constexpr double kMinVariance = 1e-3;
 
-/// If a step reverses the previous one to within this distance [px], the iteration oscillates and
-/// is stopped.
-constexpr float kSameStep_px = 0.01F;
-
 /// Gray levels, and gray levels times gradients, in the units of the kernels.
 constexpr double kOfGradient = 1.0 / (1 << Window::kGradientBits);
 constexpr double kOfContrast = 1.0 / (1 << Window::kContrastBits);
@@ -173,19 +169,12 @@ cv::Point2f TrackingWindow::stepFrom(const Patch& patch) const {
 bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& center) {
   const auto min_px2 = static_cast<float>(stop.min_step_px * stop.min_step_px);
   cv::Point2f found = center;
-  cv::Point2f last_step;
   for (int i = 0; i < stop.max_iterations; ++i) {
     if (!contains(image, found)) return false;
     const cv::Point2f step = stepFrom(patchAround(image, found, radius_));
     found += step;
     if (cv::norm(found - center) > stop.max_shift_px) return false;
     if (step.dot(step) <= min_px2) break;
-    const cv::Point2f both = step + last_step;
-    if (i > 0 && std::abs(both.x) < kSameStep_px && std::abs(both.y) < kSameStep_px) {
-      found -= 0.5F * step;
-      break;
-    }
-    last_step = step;
   }
   if (!contains(image, found)) return false;
   center = found;
