@@ -63,6 +63,13 @@ struct RowOffset {
   double applied_px = 0.0;
 };
 
+/// How much later the right images are taken than the left ones.
+struct RightDelay {
+  double estimated_s = 0.0;
+  double sigma_s = 0.0;    ///< standard deviation of the estimate
+  double applied_s = 0.0;  ///< estimated_s if it is significant, which was corrected; otherwise 0
+};
+
 /// The result for one stereo pair.
 struct OdometryResult {
   State state = State::kLost;
@@ -93,6 +100,7 @@ struct OdometryResult {
   UncertainTransform T_keyframe_cur;
   DisparityBias disparity_bias;  ///< of the rig
   RowOffset row_offset;          ///< of the rig, before the correction
+  RightDelay right_delay;        ///< of the rig, before the correction
   /// Contrast of the right image relative to the left one, the median over the matched windows. It
   /// is only reported. 0: no motion.
   double contrast_gain = 0.0;

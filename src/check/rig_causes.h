@@ -65,6 +65,7 @@ struct PairSamples {
   double flow_noise_px = 1.0;
   double applied_px = 0.0;  ///< bias of the disparities that flows are of
   std::vector<RigSample> samples;
+  double late_s = 0.0;  ///< delay that is corrected in these disparities
 };
 
 /// What the causes do to the right image.

@@ -235,7 +235,7 @@ RigProblem::FlowResidual RigProblem::residualOf(
   axes.row(1) << -axes(0, 1), axes(0, 0);
   axes.row(0) /= noise_px * std::sqrt(1.0 + length * length);
   axes.row(1) /= noise_px;
-  const double error_px = displaced_px - pair.applied_px;
+  const double error_px = displaced_px - pair.applied_px - pair.late_s * sample.velocity_pxps.x();
   const double damped = 1.0 / std::max(1.0 + sample.damping_ppx * error_px, 0.2);  // wrong matches
   Jacobian jacobian = damped * damped * sample.flow_by_disparity * by_values;
   for (int k = kBothLenses; k < kCauses; ++k) {

@@ -46,9 +46,7 @@ Eigen::Vector3d measureFlow(const StereoCamera& camera,
   sample.flow_by_disparity = by_point * (motion.T.linear() * ray) * (-depth_m / from_infinity_px);
   sample.damping_ppx = motion.T.translation().z() / (point.z() * from_infinity_px);
   // Both lenses move the feature in the keyframe, its ray, and its disparity.
-  const auto moved = [](const Eigen::Vector2d& at) -> Eigen::Vector2d {
-    return at.squaredNorm() * at;
-  };
+  const auto moved = [](const Eigen::Vector2d& at) { return (at.squaredNorm() * at).eval(); };
   const Eigen::Vector2d at = ray.head<2>();
   const double disparity = moved(at).x() - moved({sample.x_right, sample.y}).x();
   const Eigen::Matrix<double, 2, 2> by_ray = depth_m * by_point * motion.T.linear().leftCols<2>();
@@ -73,6 +71,7 @@ void RigSampler::observe(const CheckedPair& pair) {
   }
   if (!pair.has_moved) return;
   PairSamples samples = {pair.time_s, result.flow_noise_px, result.disparity_bias.applied_px, {}};
+  samples.late_s = result.right_delay.applied_s;
   last_points_.clear();
   tracker_.setDetail(std::exp2(result.halvings));
   const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPerPair);
@@ -101,7 +100,7 @@ void RigSampler::exclude(const cv::Mat& mask) {
   const auto isMasked = [&](const RigSample& sample) {
     return mask.at<uchar>(cv::Point(sample.left_px)) != 0;
   };
-  for (auto& [time_s, noise_px, applied_px, samples] : pairs_) {
+  for (auto& [time_s, noise_px, applied_px, samples, late_s] : pairs_) {
     samples.erase(std::remove_if(samples.begin(), samples.end(), isMasked), samples.end());
   }
 }
@@ -121,9 +120,8 @@ void RigSampler::measureRow(const CheckedPair& pair,
   const cv::Point2f left = sample.left_px + shiftOf(samples_++);
   cv::Point2f right = left + cv::Point2f(-static_cast<float>(feature.disparity_px),
                                          static_cast<float>(pair.result.row_offset.applied_px));
-  // Again from where it stops, up to 0.04 px before the end.
-  constexpr int kSearches = 3;
-  for (int i = 0; i < kSearches; ++i) {
+  // Twice again from where it stops, up to 0.04 px before the end.
+  for (int i = 0; i < 3; ++i) {
     if (!tracker_.locate(pair.images.left, pair.images.right, left, right)) return;
   }
   // What looks a little alike in the row where the search began is not found on the way back.

@@ -106,6 +106,8 @@ int CorrespondenceFinder::find(const StereoCamera& camera,
   tracker_.setDetail(camera.detail_px);
   const RectifiedImages images = imagesOf(current, camera, keyframe);
   const Eigen::Isometry3d T_cur_keyframe = T_keyframe_cur.inverse();
+  const double dt_s = secondsBetween(*keyframe.frame, current);
+  const double late = keyframe.right_delay_s == 0.0 ? 0.0 : keyframe.right_delay_s / dt_s;
   features.clear();
   gains_.clear();
   int count = 0;
@@ -113,7 +115,8 @@ int CorrespondenceFinder::find(const StereoCamera& camera,
     const auto tracked = track(camera, keyframe, current, T_cur_keyframe, i);
     if (!tracked) continue;
     ++count;
-    const auto disparity_px = consistentDisparity(images, current, *tracked);
+    const cv::Point2f late_px = late * (tracked->right - keyframe.right_px[i]);
+    const auto disparity_px = consistentDisparity(images, current, *tracked, late_px);
     if (!disparity_px) continue;
     const cv::Point2f& left = tracked->left;
     features.push_back(
@@ -151,11 +154,13 @@ std::optional<CorrespondenceFinder::Tracked> CorrespondenceFinder::track(
   return found ? std::optional(cur) : std::nullopt;
 }
 
-/// The disparity at which the tracked positions match each other. None if they do not, or are
+/// The disparity at which the tracked positions match each other, at the time of the left image: at
+/// that of the right one, the point has moved on by `late_px`. None if they do not match, or are
 /// masked.
 std::optional<float> CorrespondenceFinder::consistentDisparity(const RectifiedImages& images,
                                                                const StereoFrame& current,
-                                                               const Tracked& tracked) {
+                                                               const Tracked& tracked,
+                                                               const cv::Point2f& late_px) {
   if (current.left_mask.excludes(tracked.left) || current.right_mask.excludes(tracked.right)) {
     return std::nullopt;
   }
@@ -163,12 +168,14 @@ std::optional<float> CorrespondenceFinder::consistentDisparity(const RectifiedIm
   const cv::Point2f offset = tracked.left - tracked.right;
   const double wrong_row_px = std::abs(offset.y + images.row_offset_px);
   if (!(wrong_row_px <= detail_px * kMaxVertical_px)) return std::nullopt;
-  const auto match = matcher_.matchNear(images, tracked.left, offset.x);
+  RectifiedImages late = images;
+  late.row_offset_px += late_px.y;
+  const auto match = matcher_.matchNear(late, tracked.left, offset.x);
   if (!match) return std::nullopt;
   gains_.push_back(static_cast<float>(match->gain));
   const double difference_px = std::abs(match->disparity_px - offset.x);
   if (difference_px > detail_px * kMaxDisparityDifference_px) return std::nullopt;
-  return match->disparity_px;
+  return match->disparity_px + late_px.x;
 }
 
 double CorrespondenceFinder::medianShift(const StereoCamera& camera,

@@ -77,7 +77,8 @@ class CorrespondenceFinder {
                                std::size_t i);
   std::optional<float> consistentDisparity(const RectifiedImages& images,
                                            const StereoFrame& current,
-                                           const Tracked& tracked);
+                                           const Tracked& tracked,
+                                           const cv::Point2f& late_px);
 
   Config config_;
   FeatureDetector detector_;

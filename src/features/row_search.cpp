@@ -79,18 +79,21 @@ void RowSearch::measure(const StereoCamera& camera,
                         const StereoFrame& current,
                         const Correspondences& features,
                         const FeatureSet& set,
+                        const Eigen::Isometry3d& T_keyframe_cur,
                         double row_offset_px,
-                        std::vector<float>& offsets_px) {
-  offsets_px.clear();
+                        std::vector<RowSample>& samples) {
+  samples.clear();
   tracker_.setDetail(camera.detail_px);
   for (std::size_t i = 0; i < features.size(); i += kFeatureSample) {
     if (set[i] == 0) continue;
-    const cv::Point2f left(static_cast<float>(features[i].cur_px.x()),
-                           static_cast<float>(features[i].cur_px.y()));
-    cv::Point2f right = left + cv::Point2f(-static_cast<float>(features[i].disparity_px),
+    const Correspondence& feature = features[i];
+    const cv::Point2f left(static_cast<float>(feature.cur_px.x()),
+                           static_cast<float>(feature.cur_px.y()));
+    cv::Point2f right = left + cv::Point2f(-static_cast<float>(feature.disparity_px),
                                            static_cast<float>(row_offset_px));
     if (tracker_.locate(current.left.front(), current.right.front(), left, right)) {
-      offsets_px.push_back(right.y - left.y);
+      const Eigen::Vector2d from_px = camera.project(T_keyframe_cur * feature.point_cur);
+      samples.push_back({feature.cur_px, feature.cur_px - from_px, right.y - left.y});
     }
   }
 }

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "features/feature_tracker.h"
 #include "features/stereo_frame.h"
 #include "features/stereo_matcher.h"
@@ -10,6 +12,12 @@
 #include "rotrocc/stereo_camera.h"
 
 namespace rotrocc {
+
+/// The row offset of a feature.
+struct RowSample {
+  Eigen::Vector2d left_px, flow_px;  ///< in the left image: its position, and its way there
+  float offset_px;
+};
 
 /// Measures the row offset between the left and the right image at a sample of points. Offsets are
 /// positive if a point is lower in the right image. Has no state except reused buffers.
@@ -24,14 +32,15 @@ class RowSearch {
   /// be known before: several rows are searched.
   std::vector<float> search(const StereoCamera& camera, const Keyframe& keyframe);
 
-  /// Sets `offsets_px` to those of a sample of the flagged features of `current`, near
-  /// `row_offset_px`.
+  /// Sets `samples` to a sample of the flagged features of `current`, near `row_offset_px`. Flows
+  /// are those by the motion, without the noise of the positions.
   void measure(const StereoCamera& camera,
                const StereoFrame& current,
                const Correspondences& features,
                const FeatureSet& set,
+               const Eigen::Isometry3d& T_keyframe_cur,
                double row_offset_px,
-               std::vector<float>& offsets_px);
+               std::vector<RowSample>& samples);
 
  private:
   StereoMatcher matcher_;

@@ -95,6 +95,7 @@ struct Keyframe {
   std::vector<cv::Point2f> corners;  ///< of the left image [px]
 
   double row_offset_px = 0.0;  ///< how much lower points are in the right image
+  double right_delay_s = 0.0;  ///< how much later the right images are taken
 
   /// The corners with a depth: pixels in both images, and points in the left camera frame [m].
   std::vector<cv::Point2f> left_px, right_px;

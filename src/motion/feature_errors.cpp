@@ -56,7 +56,8 @@ bool keepBelow(const std::vector<double>& errors, double threshold, FeatureSet& 
 }
 
 double medianFlow_px(const Correspondences& features, const FeatureSet& set) {
-  std::vector<double> flows_px;
+  thread_local std::vector<double> flows_px;  // buffer
+  flows_px.clear();
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (set[i] != 0) flows_px.push_back((features[i].cur_px - features[i].keyframe_px).norm());
   }

@@ -28,6 +28,7 @@ bool RigEstimate::setCamera(const StereoCamera& camera) {
   first_camera_ = camera;
   resetBias();
   rows_.reset();
+  delay_ = {};
   return false;
 }
 
@@ -71,10 +72,15 @@ double RigEstimate::correctedRows() const {
   return config_.enabled ? rows_.offset().applied_px : 0.0;
 }
 
+double RigEstimate::correctedDelay() const {
+  return config_.enabled ? delay_.delay().applied_s : 0.0;
+}
+
 void RigEstimate::startKeyframe(Keyframe& keyframe) {
   past_ = filter_;
   if (!rows_.isKnown()) rows_.observe(row_search_.search(correctedCamera(), keyframe));
   keyframe.row_offset_px = correctedRows();
+  keyframe.right_delay_s = correctedDelay();
 }
 
 void RigEstimate::observeBias(const Hypothesis& found) {
@@ -90,11 +96,25 @@ void RigEstimate::observeBias(const Hypothesis& found) {
 
 void RigEstimate::observeRows(const Hypothesis& found,
                               const Keyframe& keyframe,
-                              const StereoFrame& current) {
+                              const StereoFrame& current,
+                              bool is_degraded) {
   const FeatureSet& inliers = found.estimate.rotation_inliers;
   if (!rows_.isKnown() && !rows_.isNear(keyframe.row_offset_px)) return;
-  row_search_.measure(
-      found.camera, current, found.features, inliers, keyframe.row_offset_px, row_offsets_px_);
+  row_search_.measure(found.camera,
+                      current,
+                      found.features,
+                      inliers,
+                      found.estimate.T_keyframe_cur,
+                      keyframe.row_offset_px,
+                      row_samples_);
+  const double dt_s = secondsBetween(*keyframe.frame, current);
+  delay_.add(found.camera, dt_s, row_samples_);
+  if (is_degraded) return;
+  const double late = correctedDelay() / dt_s;
+  row_offsets_px_.clear();
+  for (const RowSample& sample : row_samples_) {
+    row_offsets_px_.push_back(sample.offset_px - static_cast<float>(late * sample.flow_px.y()));
+  }
   rows_.observe(row_offsets_px_);
 }
 
@@ -102,6 +122,8 @@ void RigEstimate::report(OdometryResult& result) const {
   result.disparity_bias = bias();
   result.row_offset = rows_.offset();
   result.row_offset.applied_px = correctedRows();
+  result.right_delay = delay_.delay();
+  result.right_delay.applied_s = correctedDelay();
   for (double* px : {&result.disparity_bias.estimated_px,
                      &result.disparity_bias.sigma_px,
                      &result.disparity_bias.applied_px,

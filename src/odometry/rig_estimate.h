@@ -7,6 +7,7 @@
 #include "odometry/motion_check.h"
 #include "rig/bias_filter.h"
 #include "rig/bias_meter.h"
+#include "rig/delay_filter.h"
 #include "rig/row_comparison.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/odometry_result.h"
@@ -59,7 +60,10 @@ class RigEstimate {
 
   /// Measures the row offset at a motion that enough features support, from the keyframe to the
   /// current frame.
-  void observeRows(const Hypothesis& found, const Keyframe& keyframe, const StereoFrame& current);
+  void observeRows(const Hypothesis& found,
+                   const Keyframe& keyframe,
+                   const StereoFrame& current,
+                   bool is_degraded);
 
   /// Stores the estimates, with the corrections of the next pair, in pixels of whole images.
   void report(OdometryResult& result) const;
@@ -67,6 +71,7 @@ class RigEstimate {
  private:
   double knownBias() const { return config_.bias_px / (1 << level_); }
   double correctedRows() const;
+  double correctedDelay() const;
   void resetBias();
 
   StereoCalibratorConfig config_;
@@ -80,7 +85,9 @@ class RigEstimate {
   Vector6d motion_by_bias_ = Vector6d::Zero();  // translation, then rotation
   RowSearch row_search_;
   RowComparison rows_;
-  std::vector<float> row_offsets_px_;  // buffer, reused
+  DelayFilter delay_;
+  std::vector<RowSample> row_samples_;  // buffers, reused
+  std::vector<float> row_offsets_px_;
 };
 
 }  // namespace rotrocc

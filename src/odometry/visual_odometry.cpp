@@ -180,6 +180,7 @@ void VisualOdometry::Pipeline::report(const StereoCamera& camera, OdometryResult
   if (result.hasMotion()) {
     result.disparity_bias.applied_px = px * found_.camera.cx_right - camera.cx_right;
     result.row_offset.applied_px = px * keyframe_.row_offset_px;
+    result.right_delay.applied_s = keyframe_.right_delay_s;
   }
   result.flow_noise_px *= px;
   if (level_ == 0) return;
@@ -418,7 +419,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   if (const auto expected = predict(result.dt_s()); expected && !why_degraded) {
     why_degraded = MotionCheck::whyJump(step, *expected, result.dt_s());
   }
-  if (!why_degraded) rig_.observeRows(found_, keyframe_, *current);
+  rig_.observeRows(found_, keyframe_, *current, why_degraded.has_value());
   if (why_degraded && result.reason.empty()) result.reason = *why_degraded;
   // A driver that repeats images loses single pairs.
   const bool is_long = result.dt_s() > kPredictable * period_s_;

@@ -112,7 +112,7 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
 
   table.beginSection("stereo_calibrator");
   table.add("enabled", c.stereo_calibrator.enabled).description =
-      "estimate and correct the disparity bias, and correct the row offset";
+      "estimate and correct the disparity bias, the row offset and the delay of the right images";
   table.add("bias_px", c.stereo_calibrator.bias_px, {-20.0, 20.0, "px"}).description =
       "known correction, added to all disparities; initial value of the estimate";
 

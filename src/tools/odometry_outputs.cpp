@@ -56,7 +56,8 @@ std::string statisticsColumns() {
       "translation_inliers,pyramids_ms,corners_ms,disparity_ms,tracking_ms,estimation_ms,"
       "prepared_ms,wall_ms,cpu_ms,keyframe_stamp_ns,bias_estimated_px,bias_sigma_px,"
       "bias_applied_px,row_offset_px,row_offset_sigma_px,row_difference_px,"
-      "row_offset_applied_px,contrast_gain,"
+      "row_offset_applied_px,right_delay_s,right_delay_sigma_s,"
+      "right_delay_applied_s,contrast_gain,"
       "flow_noise_px,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad";
   constexpr const char* kAxes[] = {"x", "y", "z", "rx", "ry", "rz"};
   for (int i = 0; i < 6; ++i) {
@@ -79,7 +80,8 @@ void writeStatistics(const PairRecord& record, CsvFile& file) {
        << result.disparity_bias.estimated_px << result.disparity_bias.sigma_px
        << result.disparity_bias.applied_px << result.row_offset.median_px
        << result.row_offset.sigma_px << result.row_offset.typical_px << result.row_offset.applied_px
-       << result.contrast_gain << result.flow_noise_px;
+       << result.right_delay.estimated_s << result.right_delay.sigma_s
+       << result.right_delay.applied_s << result.contrast_gain << result.flow_noise_px;
   Vector6d motion;
   motion << result.T_prev_cur.translation(), logRotation(result.T_prev_cur.linear());
   for (int i = 0; i < 6; ++i) file << motion[i];

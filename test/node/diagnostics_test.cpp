@@ -174,6 +174,17 @@ TEST(RigFaultTest, FaultsThatLastAskForACalibration) {
                 advice);
   report.pair.result.row_offset = {-0.36, 0.21, 1.75, 0.0};
   EXPECT_EQ(rigFault(report.pair.result), "") << "chance matches of a few features";
+
+  report.pair.result.right_delay = {-0.005, 0.00125, -0.004};
+  const std::string delay =
+      "right images are taken -5 ms (+- 1.25) after the left ones, which is corrected: trigger "
+      "both cameras together";
+  EXPECT_EQ(rigFault(report.pair.result), delay);
+  report.pair.result.right_delay.sigma_s = 0.00126;
+  EXPECT_EQ(rigFault(report.pair.result), "") << "less than 4 standard deviations";
+  OdometryResult both = biased(1.25, 0.05);
+  both.right_delay = {0.005, 0.001, 0.005};
+  EXPECT_NE(rigFault(both).find(advice + "; right images are taken 5 ms"), std::string::npos);
 }
 
 TEST(DiagnosticsTest, LossIsAnErrorWithItsReason) {
@@ -322,6 +333,7 @@ TEST(StatusTest, HasAllOfAPairAndWithoutOneTheStateHintAndCounters) {
   result.times.total_ms = 2.0;
   result.disparity_bias = {0.75, 0.125, 0.5};
   result.row_offset = {-0.25, 0.0625, 0.375, -0.5};
+  result.right_delay = {0.25, 0.125, 0.375};
   result.contrast_gain = 0.625;
   result.halvings = 1;
   result.flow_noise_px = 0.125;
@@ -340,6 +352,9 @@ TEST(StatusTest, HasAllOfAPairAndWithoutOneTheStateHintAndCounters) {
   expected.tracking_ms = 1.5f;
   expected.estimator_ms = 2.0f;
   expected.latency_ms = 12.0f;
+  expected.right_delay_s = 0.25f;
+  expected.right_delay_sigma_s = 0.125f;
+  expected.right_delay_applied_s = 0.375f;
   expected.disparity_bias_px = 0.75f;
   expected.disparity_bias_sigma_px = 0.125f;
   expected.disparity_bias_applied_px = 0.5f;

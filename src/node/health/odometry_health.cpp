@@ -55,6 +55,7 @@ std::string hintOf(const HealthReport& report) {
 std::string faultOfRig(const OdometryResult& result) {
   const DisparityBias& bias = result.disparity_bias;
   const RowOffset& rows = result.row_offset;
+  const RightDelay& delay = result.right_delay;
   std::string what;
   if (std::abs(bias.applied_px) >= kLargeBias_px &&
       std::abs(bias.estimated_px) >= kSigmas * bias.sigma_px) {
@@ -68,7 +69,13 @@ std::string faultOfRig(const OdometryResult& result) {
             hundredths(rows.median_px) + " px (+- " + hundredths(rows.sigma_px) + ")" +
             (rows.applied_px != 0.0 ? ", which is corrected" : "");
   }
-  return what.empty() ? "" : what + ": recalibrate the stereo rig";
+  if (!what.empty()) what += ": recalibrate the stereo rig";
+  if (delay.applied_s != 0.0 && std::abs(delay.estimated_s) >= kSigmas * delay.sigma_s) {
+    what += (what.empty() ? "" : "; ") + std::string("right images are taken ") +
+            hundredths(1e3 * delay.estimated_s) + " ms (+- " + hundredths(1e3 * delay.sigma_s) +
+            ") after the left ones, which is corrected: trigger both cameras together";
+  }
+  return what;
 }
 
 /// Sets state, hint and counters of the node.
@@ -132,6 +139,9 @@ OdometryStatus toStatus(const HealthReport& report) {
   message.row_offset_sigma_px = static_cast<float>(result.row_offset.sigma_px);
   message.row_offset_applied_px = static_cast<float>(result.row_offset.applied_px);
   message.row_difference_px = static_cast<float>(result.row_offset.typical_px);
+  message.right_delay_s = static_cast<float>(result.right_delay.estimated_s);
+  message.right_delay_sigma_s = static_cast<float>(result.right_delay.sigma_s);
+  message.right_delay_applied_s = static_cast<float>(result.right_delay.applied_s);
   message.contrast_gain = static_cast<float>(result.contrast_gain);
   message.halvings = static_cast<std::uint8_t>(result.halvings);
   message.flow_noise_px = static_cast<float>(result.flow_noise_px);
