@@ -8,8 +8,8 @@
 namespace rotrocc {
 namespace {
 
-/// Features whose offset is measured: one of this many. That is cheap, and enough over a few pairs.
-constexpr std::size_t kFeatureSample = 16;
+/// Number of features whose offset is measured, of all: it is cheap, and enough over a few pairs.
+constexpr std::size_t kFeatures = 24;
 
 /// Number of corners that are searched.
 constexpr std::size_t kCorners = 64;
@@ -84,7 +84,8 @@ void RowSearch::measure(const StereoCamera& camera,
                         std::vector<RowSample>& samples) {
   samples.clear();
   tracker_.setDetail(camera.detail_px);
-  for (std::size_t i = 0; i < features.size(); i += kFeatureSample) {
+  const std::size_t step = std::max<std::size_t>(1, features.size() / kFeatures);
+  for (std::size_t i = 0; i < features.size(); i += step) {
     if (set[i] == 0) continue;
     const Correspondence& feature = features[i];
     const cv::Point2f left(static_cast<float>(feature.cur_px.x()),
