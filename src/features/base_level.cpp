@@ -49,28 +49,33 @@ double lossOf(const cv::Mat& image, const cv::Mat& half) {
   return sum / count;
 }
 
-/// Of the first of three images, each half of the previous one; none if they show nothing.
-std::optional<double> sharpnessOf(const cv::Mat* images, std::vector<int>& buffer) {
+/// Of an image, by the two smaller ones, each half of the previous one; none if they show nothing.
+std::optional<double> sharpnessOf(const cv::Mat& image,
+                                  const cv::Mat* smaller,
+                                  std::vector<int>& buffer) {
   constexpr double kLeast = 0.01;
-  const double noise = kNoiseOfLoss * noiseVariance(images[0], buffer);
-  const double lost = lossOf(images[0], images[1]) - noise;
-  const double next = lossOf(images[1], images[2]) - kNoiseOfHalf * noise;
+  const double noise = kNoiseOfLoss * noiseVariance(image, buffer);
+  const double lost = lossOf(image, smaller[0]) - noise;
+  const double next = lossOf(smaller[0], smaller[1]) - kNoiseOfHalf * noise;
   if (!(next > kNoiseOfHalf * noise)) return std::nullopt;
   return std::max(lost / next, kLeast);
 }
 
 }  // namespace
 
-void BaseLevel::observe(const ImagePyramid& image) {
-  const int levels = std::min<int>(kMaxLevel + 1, static_cast<int>(image.size()) - 2);
+void BaseLevel::observe(const cv::Mat& image, const ImagePyramid& pyramid) {
+  const int levels = std::min<int>(kMaxLevel + 1, static_cast<int>(pyramid.size()) - 2);
+  const auto observe = [&] {
+    observeLevel(level_ == 0 ? image : pyramid[level_], &pyramid[level_ + 1]);
+  };
   for (level_ = 0; level_ + 1 < levels; ++level_) {
-    const auto pixels = static_cast<double>(image[level_ + 1].total());
+    const auto pixels = static_cast<double>(pyramid[level_ + 1].total());
     const double windows = pixels / kWindow_px2 / config_.max_features;
     if (level_ < config_.min_halvings && windows >= 1.0) continue;
-    observeLevel(&image[level_]);
+    observe();
     if (!is_empty_[level_] && !(is_soft_[level_] && windows >= kRoom)) return;
   }
-  if (levels > 0) observeLevel(&image[level_]);
+  if (levels > 0) observe();
 }
 
 /// Enlarging an image by a factor divides its sharpness by about the square of the factor.
@@ -78,8 +83,8 @@ double BaseLevel::detail_px() const {
   return is_soft_[level_] ? std::max(1.0, std::exp(-0.5 * log_sharpness_[level_])) : 1.0;
 }
 
-void BaseLevel::observeLevel(const cv::Mat* images) {
-  const auto sharpness = sharpnessOf(images, noise_);
+void BaseLevel::observeLevel(const cv::Mat& image, const cv::Mat* smaller) {
+  const auto sharpness = sharpnessOf(image, smaller, noise_);
   if (!sharpness) return;
   images_[level_] = std::min(images_[level_] + 1, kImages);
   log_sharpness_[level_] += (std::log(*sharpness) - log_sharpness_[level_]) / images_[level_];

@@ -29,8 +29,8 @@ class BaseLevel {
 
   void configure(const FeatureDetectorConfig& config) { config_ = config; }
 
-  /// Adds an image, CV_8UC1, with its smaller copies.
-  void observe(const ImagePyramid& image);
+  /// Adds an image, CV_8UC1, with its smaller copies. Level 0 of the pyramid is not used.
+  void observe(const cv::Mat& image, const ImagePyramid& pyramid);
 
   /// Forgets the images, as of another camera.
   void reset() { *this = BaseLevel(config_); }
@@ -42,7 +42,7 @@ class BaseLevel {
   double detail_px() const;
 
  private:
-  void observeLevel(const cv::Mat* images);
+  void observeLevel(const cv::Mat& image, const cv::Mat* smaller);
 
   FeatureDetectorConfig config_;
   int level_ = 0;

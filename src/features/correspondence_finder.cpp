@@ -54,8 +54,9 @@ FramePtr CorrespondenceFinder::makeFrame(const StereoPair& pair, int level) {
   frame->left_mask = left_mask_;
   frame->right_mask = right_mask_;
   const int least_px = 2 * config_.feature_tracker.window_radius_px + 1;
-  buildPyramid(pair.left, BaseLevel::kLevels, least_px, frame->whole_left);
-  buildPyramid(pair.right, BaseLevel::kLevels, least_px, frame->whole_right);
+  const bool with_image = level == 0;
+  buildPyramid(pair.left, BaseLevel::kLevels, least_px, frame->whole_left, with_image);
+  buildPyramid(pair.right, BaseLevel::kLevels, least_px, frame->whole_right, with_image);
   const int levels = static_cast<int>(frame->whole_left.size());
   frame->setLevel(std::min(level, levels - 1));
   return frame;

@@ -31,8 +31,9 @@ class CorrespondenceFinder {
   explicit CorrespondenceFinder(const Config& config);
   virtual ~CorrespondenceFinder() = default;
 
-  /// Copies the images of the pair into a frame, to be used at a level of its pyramids. Frames that
-  /// are no longer referenced are reused.
+  /// Copies the images of the pair into a frame, to be used at a level of its pyramids: not before
+  /// they are halved if only smaller ones are used. Frames that are no longer referenced are
+  /// reused.
   FramePtr makeFrame(const StereoPair& pair, int level = 0);
 
   /// Finds the corners of the keyframe's left image, more than are wanted: some have no match.

@@ -30,12 +30,18 @@ void smoothDown(const Kernels& kernels, const cv::Mat& image, int y, std::int16_
 
 }  // namespace
 
-void buildPyramid(const cv::Mat& image, int levels, int min_side_px, ImagePyramid& pyramid) {
+void buildPyramid(
+    const cv::Mat& image, int levels, int min_side_px, ImagePyramid& pyramid, bool with_image) {
   int count = 1;
   while (count < levels && std::min(image.cols, image.rows) >> count > min_side_px) ++count;
   pyramid.resize(static_cast<std::size_t>(count));
-  image.copyTo(pyramid[0]);
-  for (std::size_t i = 1; i < pyramid.size(); ++i) halve(pyramid[i - 1], pyramid[i]);
+  if (count > 1) halve(image, pyramid[1]);
+  for (std::size_t i = 2; i < pyramid.size(); ++i) halve(pyramid[i - 1], pyramid[i]);
+  if (with_image || count == 1) {
+    image.copyTo(pyramid[0]);
+  } else {
+    pyramid[0].release();
+  }
 }
 
 void halve(const cv::Mat& image, cv::Mat& half) {

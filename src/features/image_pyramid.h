@@ -9,9 +9,14 @@ namespace rotrocc {
 /// An image and its smaller copies (CV_8UC1), each half the width and height of the previous one.
 using ImagePyramid = std::vector<cv::Mat>;
 
-/// Builds a pyramid of at most `levels` levels including the image. The smaller copies are larger
-/// than `min_side_px` in both directions. Reuses the memory of `pyramid`.
-void buildPyramid(const cv::Mat& image, int levels, int min_side_px, ImagePyramid& pyramid);
+/// Builds a pyramid of at most `levels` levels including a copy of the image. The smaller copies
+/// are larger than `min_side_px` in both directions. If there are any, `with_image` may be false:
+/// then level 0 is empty. Reuses the memory of `pyramid`.
+void buildPyramid(const cv::Mat& image,
+                  int levels,
+                  int min_side_px,
+                  ImagePyramid& pyramid,
+                  bool with_image = true);
 
 /// Smooths `image` (CV_8UC1) by (1 4 6 4 1) / 16 in both directions and keeps every other pixel of
 /// every other row, starting with the first: the reduction of Burt and Adelson (1983). The image is

@@ -58,7 +58,7 @@ struct StereoFrame {
   std::int64_t stamp_ns = 0;
   std::int64_t clock_set_ns = 0;  ///< see StereoPair
   std::int64_t time_ns() const { return stamp_ns - clock_set_ns; }
-  ImagePyramid whole_left, whole_right;  ///< level 0 is a copy of the image
+  ImagePyramid whole_left, whole_right;  ///< level 0 is a copy of the image, or empty
   /// Pyramids for the tracker: those parts of the whole ones that begin with the image of the
   /// odometry, see BaseLevel.
   ImagePyramid left, right;
@@ -68,6 +68,9 @@ struct StereoFrame {
   /// far, for features whose prediction is far off. What is farther is left to the search for the
   /// motion.
   static constexpr int kLevels = 3;
+
+  /// The first level that there is.
+  int firstLevel() const { return whole_left.front().empty() ? 1 : 0; }
 
   /// Sets the first level of left and right.
   void setLevel(int first) {

@@ -1,8 +1,8 @@
 #include "odometry/pair_checks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <stdexcept>
 
 #include <opencv2/core.hpp>
@@ -22,12 +22,11 @@ constexpr double kSameDrive = 30.0;
 /// as a share of the way, where a restart would lose all of the way between them.
 constexpr double kRefinedCamera = 1e-3;
 
-bool isSame(const cv::Mat& a, const cv::Mat& b) {
-  if (a.size() != b.size()) return false;
-  for (int y = 0; y < a.rows; ++y) {
-    if (std::memcmp(a.ptr(y), b.ptr(y), static_cast<std::size_t>(a.cols)) != 0) return false;
-  }
-  return true;
+/// By the second level, which all have unless they are small.
+bool isSame(const ImagePyramid& a, const ImagePyramid& b) {
+  const std::size_t level = std::min<std::size_t>(1, a.size() - 1);
+  if (a.size() != b.size() || a[level].size() != b[level].size()) return false;
+  return std::equal(a[level].begin<uchar>(), a[level].end<uchar>(), b[level].begin<uchar>());
 }
 
 }  // namespace
@@ -82,10 +81,11 @@ std::optional<std::string> whyRestart(const StereoPair& pair,
 }
 
 std::optional<std::string> whyRepeated(const StereoPair& pair,
+                                       const StereoFrame& current,
                                        const StereoFrame& newest,
                                        const std::function<bool()>& may_repeat) {
-  const bool left = isSame(pair.left, newest.whole_left.front()) && !isNoise(pair.left);
-  const bool right = isSame(pair.right, newest.whole_right.front()) && !isNoise(pair.right);
+  const bool left = isSame(current.whole_left, newest.whole_left) && !isNoise(pair.left);
+  const bool right = isSame(current.whole_right, newest.whole_right) && !isNoise(pair.right);
   if (!left && !right) return std::nullopt;
   if (left && right && may_repeat && may_repeat()) return std::nullopt;
   const std::string which = left && right ? "both images are identical to the previous ones"

@@ -1,5 +1,6 @@
 #include "rotrocc/visual_odometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -98,8 +99,7 @@ class VisualOdometry::Pipeline {
                OdometryResult& result);
   void fail();
   void forget();
-  FramePtr makeFrame(const StereoPair& pair);
-  void useLevel();
+  void useLevel(const StereoPair& pair, const FramePtr& current);
   void report(const StereoCamera& camera, OdometryResult& result);
   void makeKeyframe(const FramePtr& frame, StageTimes& times);
 
@@ -247,9 +247,6 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   if (const auto why = whyUnusable(pair, camera)) throw Lost(*why);
   const StereoFrame* newest = lost_ ? lost_.get() : last_.get();
   const bool is_later = newest == nullptr || pair.time_ns() > newest->time_ns();
-  if (newest != nullptr && is_later) {
-    if (const auto why = whyRepeated(pair, *newest, others.may_repeat)) throw Lost(*why);
-  }
   const auto why_restart = whyRestart(pair, camera, newest, rig_.camera(), period_s_);
   if (!why_restart && !is_later) {
     throw Lost("the stamp " + std::to_string(pair.stamp_ns) +
@@ -259,12 +256,17 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   FramePtr current;
   {
     const StageTimer timer(result.times.pyramids_ms);
+    current = finder_->makeFrame(pair, base_.level());
+    if (newest != nullptr && is_later) {
+      const auto why = whyRepeated(pair, *current, *newest, others.may_repeat);
+      if (why) throw Lost(*why);
+    }
     if (why_restart) forget();
     if (!rig_.setCamera(camera)) {
       keyframe_.frame.reset();  // its depths are of the old calibration
       base_.reset();
     }
-    current = makeFrame(pair);
+    useLevel(pair, current);
   }
   if (why_restart) {
     result.reason = *why_restart;
@@ -285,22 +287,19 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   throw Lost(*found_.why_lost);
 }
 
-FramePtr VisualOdometry::Pipeline::makeFrame(const StereoPair& pair) {
-  const FramePtr frame = finder_->makeFrame(pair, level_);
-  if (!config_.isPaper()) base_.observe(frame->whole_left);
-  if (base_.level() != level_) useLevel();
-  rig_.setLevel(level_, base_.detail_px());
-  frame->setLevel(level_);
-  return frame;
-}
-
-/// Goes on with what is stored at the base level.
-void VisualOdometry::Pipeline::useLevel() {
-  level_ = base_.level();
-  keyframe_.frame.reset();
-  for (const FramePtr& frame : {last_, lost_}) {
+/// Goes on at the base level, or at the first one that all stored frames have.
+void VisualOdometry::Pipeline::useLevel(const StereoPair& pair, const FramePtr& current) {
+  if (!config_.isPaper()) base_.observe(pair.left, current->whole_left);
+  int level = base_.level();
+  for (const FramePtr& frame : {current, last_, lost_}) {
+    if (frame) level = std::max(level, frame->firstLevel());
+  }
+  if (level != level_) keyframe_.frame.reset();
+  level_ = level;
+  for (const FramePtr& frame : {current, last_, lost_}) {
     if (frame) frame->setLevel(level_);
   }
+  rig_.setLevel(level_, base_.detail_px());
 }
 
 void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& times) {

@@ -34,7 +34,7 @@ void observe(const cv::Mat& image, double sigma, BaseLevel& base) {
   cv::add(image, noise, noisy, cv::noArray(), CV_8U);
   ImagePyramid pyramid;
   buildPyramid(noisy, BaseLevel::kLevels, 9, pyramid);
-  base.observe(pyramid);
+  base.observe(noisy, pyramid);
 }
 
 cv::Mat enlarged(const cv::Mat& image, double factor) {
