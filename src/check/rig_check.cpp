@@ -12,7 +12,7 @@
 #include "common/to_seconds.h"
 #include "input/to_text.h"
 #include "motion/feature_errors.h"
-#include "node/health/pair_inspector.h"
+#include "node/health/recording_inspector.h"
 #include "rotrocc/visual_odometry.h"
 
 namespace rotrocc {

@@ -22,7 +22,7 @@
 #include "common/stage_timer.h"
 #include "inertial/gyro_predictor.h"
 #include "input/to_text.h"
-#include "node/health/pair_inspector.h"
+#include "node/health/recording_inspector.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/visual_odometry.h"
 #include "sequences/gyro_file.h"

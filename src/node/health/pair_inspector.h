@@ -3,14 +3,11 @@
 #include <cstddef>
 #include <functional>
 #include <future>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include <opencv2/core.hpp>
-
 #include "input/stereo_pair_converter.h"
+#include "node/health/loss_explanation.h"
 #include "node/health/sliding_quantiles.h"
 #include "rotrocc/visual_odometry.h"
 
@@ -18,13 +15,6 @@ namespace rotrocc {
 
 /// A pair with pixels of its own.
 StereoPair copyOf(StereoPair pair);
-
-/// Why a motion is lost or doubtful, in one sentence with a remedy; empty if it is not known.
-struct Explanation {
-  std::string text;
-  bool is_of_no_pair = false;
-  bool is_guess = false;  ///< another one says more
-};
 
 /// Detects camera faults: a dark camera, swapped cameras, images that are not rectified, one side
 /// that is a frame or two late, or exposures that differ so much that one of the images is likely
@@ -94,43 +84,6 @@ class PairInspector {
   std::future<Explanation> search_;
   bool search_is_of_this_loss_ = false;
   int found_nothing_ = 0;  // searches since the last explanation
-};
-
-/// Inspects the pairs of a recording. It waits for each search, so that the same input has the same
-/// output.
-class RecordingInspector {
- public:
-  explicit RecordingInspector(const OdometryConfig& config, bool rectifies)
-      : config_(config), inspector_(config, rectifies) {}
-
-  /// See PairInspector::inspect().
-  std::string inspect(const StereoPair& pair,
-                      const StereoCamera& camera,
-                      const OdometryResult& result);
-
-  /// The fault of single pairs among good ones, and a remedy: images of both cameras in the wrong
-  /// order, or doubtful pairs that match with other images; empty if none is known.
-  std::string faultOfSinglePairs() const;
-
-  PairInspector& inspector() { return inspector_; }
-  /// Copies of the last kPairsBefore pairs, the earliest one first.
-  const std::vector<StereoPair>& before() const { return before_; }
-
- private:
-  /// How many doubtful pairs are tried with other images; each takes as long as a few pairs.
-  static constexpr int kSinglePairs = 10;
-
-  void trySinglePair(const StereoPair& pair, const StereoCamera& camera);
-  void countReordered(const OdometryResult& result);
-
-  OdometryConfig config_;
-  PairInspector inspector_;
-  std::vector<StereoPair> before_;
-  std::optional<StereoPair> last_ok_;
-  int tried_ = 0;                         // doubtful pairs
-  std::map<std::string, int> explained_;  // of these, by what they match
-  std::vector<Eigen::Vector3d> steps_m_;  // translations of the last pairs
-  int pairs_ = 0, reordered_ = 0;
 };
 
 }  // namespace rotrocc
