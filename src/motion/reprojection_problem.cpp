@@ -111,7 +111,8 @@ void ReprojectionProblem::setMotion(const Eigen::Isometry3d& T_keyframe_cur) {
     block.moved =
         (ratio2 * along / s2).max((1.0 / kMaxStretch - 1.0) * d).min((kMaxStretch - 1.0) * d);
     block.nearer = d / (d + block.moved);
-    differentiate(look(T_keyframe_cur, block), block);
+    block.seen = look(T_keyframe_cur, block);
+    differentiate(block.seen, block);
     // S^-1/2 is 1 / s along j.
     const Numbers s = s2.sqrt();
     const Numbers less = ratio2 / (s * (s + 1.0));
@@ -161,7 +162,8 @@ void ReprojectionProblem::linearize(const Eigen::Isometry3d& T_keyframe_cur,
                                     int first,
                                     const Block& block,
                                     Linear& linear) const {
-  const Seen seen = look(T_keyframe_cur, block);
+  const bool is_seen = T_keyframe_cur.matrix() == motion().matrix();
+  const Seen seen = is_seen ? block.seen : look(T_keyframe_cur, block);
   const auto whiten = [&](int column, const Numbers& x, const Numbers& y) {
     linear.x[column] = block.w_xx * x + block.w_xy * y;
     linear.y[column] = block.w_xy * x + block.w_yy * y;

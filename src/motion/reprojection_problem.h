@@ -124,6 +124,12 @@ class ReprojectionProblem {
   static constexpr std::size_t kSize = 8;
   using Numbers = Eigen::Array<double, kSize, 1>;
 
+  /// The features of a block at a motion.
+  struct Seen {
+    Numbers turned_x, turned_y, turned_z;  // R X_cur
+    Numbers in_front;                      // 1, or 0 if the depth is limited
+    Numbers per_z, u, v;                   // projection, from the principal point
+  };
   struct Block {
     Numbers target_x, target_y;  // keyframe_px, from the principal point
     Numbers x, y, z;             // X_cur at the measured disparity [m]
@@ -133,15 +139,10 @@ class ReprojectionProblem {
     Numbers w_xx, w_xy, w_yy;    // W
     Numbers by_x, by_y;          // W j
     Numbers weight;              // 0: not in the set, or no feature
+    Seen seen;                   // at motion()
   };
   struct Linear {
     Numbers x[kColumns], y[kColumns];  // both rows of a residual
-  };
-  /// The features of a block at a motion.
-  struct Seen {
-    Numbers turned_x, turned_y, turned_z;  // R X_cur
-    Numbers in_front;                      // 1, or 0 if the depth is limited
-    Numbers per_z, u, v;                   // projection, from the principal point
   };
 
   Seen look(const Eigen::Isometry3d& T_keyframe_cur, const Block& block) const;
