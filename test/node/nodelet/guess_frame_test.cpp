@@ -1,5 +1,6 @@
 // Beside another odometry: guess_frame, if that owns the base in tf, or guess_topic.
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <thread>
@@ -196,8 +197,10 @@ TEST(GuessFrameTest, OfABurstTheNewestPairIsProcessedAndDropsAreCounted) {
   for (std::uint64_t i = 0; i < kPairs; ++i) {
     left.header.stamp += ros::Duration(0.01);
     right.header.stamp = left.header.stamp;
-    for (auto* image : {&left, &right}) {  // noise: no pair is that of one before
-      image->data.front() = static_cast<unsigned char>(i);
+    for (auto* image : {&left, &right}) {  // no pair is that of one before, nor at half its size
+      for (std::size_t y = 0; y < 8; ++y) {
+        std::fill_n(&image->data[y * image->step], 8, static_cast<unsigned char>(i));
+      }
     }
     drive.robot.publish(left, right);
     drive.nodelet.finish();
