@@ -63,11 +63,11 @@ struct RowOffset {
   double applied_px = 0.0;
 };
 
-/// How much later the right images are taken than the left ones.
+/// How much later the right images are taken than the left ones, whatever the stamps say.
 struct RightDelay {
   double estimated_s = 0.0;
   double sigma_s = 0.0;    ///< standard deviation of the estimate
-  double applied_s = 0.0;  ///< estimated_s if it is significant, which was corrected; otherwise 0
+  double applied_s = 0.0;  ///< the significant part of estimated_s, which was corrected
 };
 
 /// The result for one stereo pair.

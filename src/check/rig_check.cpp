@@ -195,7 +195,7 @@ class PairChecks {
   /// Returns whether it is wrong: what is left when nothing else explains the rows, or lenses that
   /// are not corrected. What follows from them is not reported.
   bool addRectification(const ModelRest& rest, const RigModel& model, RigReport& report) const {
-    // Motions that parts of the robot disturb look like those of such lenses.
+    // Parts of the robot disturb the motions, which looks like such lenses.
     const bool is_raw = report.mask.empty() && model.exceeds(1.0, kBothLenses);
     const bool is_unexplained =
         rest.unexplained_px.certain() > model.fix_rows_px &&

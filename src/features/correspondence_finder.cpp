@@ -155,8 +155,8 @@ std::optional<CorrespondenceFinder::Tracked> CorrespondenceFinder::track(
   return found ? std::optional(cur) : std::nullopt;
 }
 
-/// The disparity at which the tracked positions match each other, at the time of the left image: at
-/// that of the right one, the point has moved on by `late_px`. None if they do not match, or are
+/// The disparity at which the tracked positions match each other, at the time of the left image;
+/// until the right image is taken, the point moves by `late_px`. None if they do not match or are
 /// masked.
 std::optional<float> CorrespondenceFinder::consistentDisparity(const RectifiedImages& images,
                                                                const StereoFrame& current,

@@ -15,8 +15,9 @@ namespace rotrocc {
 
 /// The row offset of a feature.
 struct RowSample {
-  Eigen::Vector2d left_px, flow_px;  ///< in the left image: its position, and its way there
-  float offset_px;
+  Eigen::Vector2d left_px;  ///< position in the left image
+  Eigen::Vector2d flow_px;  ///< its change since the keyframe
+  float offset_px;          ///< row in the right image, less that in the left one
 };
 
 /// Measures the row offset between the left and the right image at a sample of points. Offsets are

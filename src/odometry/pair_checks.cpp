@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <stdexcept>
 
 #include <opencv2/core.hpp>
@@ -22,11 +23,10 @@ constexpr double kSameDrive = 30.0;
 /// as a share of the way, where a restart would lose all of the way between them.
 constexpr double kRefinedCamera = 1e-3;
 
-/// By the second level, which all have unless they are small.
-bool isSame(const ImagePyramid& a, const ImagePyramid& b) {
-  const std::size_t level = std::min<std::size_t>(1, a.size() - 1);
-  if (a.size() != b.size() || a[level].size() != b[level].size()) return false;
-  return std::equal(a[level].begin<uchar>(), a[level].end<uchar>(), b[level].begin<uchar>());
+bool isSame(const ImagePyramid& a, const ImagePyramid& b, int level) {
+  const auto i = static_cast<std::size_t>(level);
+  return a.size() == b.size() && a[i].size() == b[i].size() &&
+         std::memcmp(a[i].data, b[i].data, a[i].total()) == 0;
 }
 
 }  // namespace
@@ -84,8 +84,12 @@ std::optional<std::string> whyRepeated(const StereoPair& pair,
                                        const StereoFrame& current,
                                        const StereoFrame& newest,
                                        const std::function<bool()>& may_repeat) {
-  const bool left = isSame(current.whole_left, newest.whole_left) && !isNoise(pair.left);
-  const bool right = isSame(current.whole_right, newest.whole_right) && !isNoise(pair.right);
+  const int level = std::max(current.firstLevel(), newest.firstLevel());
+  const auto isRepeated = [&](const ImagePyramid StereoFrame::*side, const cv::Mat& image) {
+    return isSame(current.*side, newest.*side, level) && !isNoise(image);
+  };
+  const bool left = isRepeated(&StereoFrame::whole_left, pair.left);
+  const bool right = isRepeated(&StereoFrame::whole_right, pair.right);
   if (!left && !right) return std::nullopt;
   if (left && right && may_repeat && may_repeat()) return std::nullopt;
   const std::string which = left && right ? "both images are identical to the previous ones"

@@ -24,8 +24,8 @@ std::optional<std::string> whyRestart(const StereoPair& pair,
                                       double period_s);
 
 /// Why a later pair, with its frame, is not a measurement, in one sentence: an image shows
-/// something, and is identical to the same side's image of the newest frame, as far as half of its
-/// size shows. A stationary camera's images differ by their noise.
+/// something, and is identical to the same side's image of the newest frame, at the largest size
+/// that both frames have. A stationary camera's images differ by their noise.
 std::optional<std::string> whyRepeated(const StereoPair& pair,
                                        const StereoFrame& current,
                                        const StereoFrame& newest,

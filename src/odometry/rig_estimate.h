@@ -58,8 +58,9 @@ class RigEstimate {
   /// used: the inliers of a motion with a wrong bias are those that agree with this bias.
   void observeBias(const Hypothesis& found);
 
-  /// Measures the row offset at a motion that enough features support, from the keyframe to the
-  /// current frame.
+  /// Measures the row offset and the delay of the right images at an accepted motion, from the
+  /// keyframe to the current frame. At a degraded one only the delay: the flows of features that
+  /// agree are right even if the motion is not.
   void observeRows(const Hypothesis& found,
                    const Keyframe& keyframe,
                    const StereoFrame& current,

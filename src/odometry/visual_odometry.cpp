@@ -287,7 +287,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   throw Lost(*found_.why_lost);
 }
 
-/// Goes on at the base level, or at the first one that all stored frames have.
+/// Continues at the base level, or at the first one that all stored frames have.
 void VisualOdometry::Pipeline::useLevel(const StereoPair& pair, const FramePtr& current) {
   if (!config_.isPaper()) base_.observe(pair.left, current->whole_left);
   int level = base_.level();

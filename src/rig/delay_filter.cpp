@@ -10,7 +10,8 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kFeatures = 1000.0;
+/// Features that the estimate remembers, about.
+constexpr double kMemory = 1000.0;
 
 /// Noise averages out over more features than that, but not what lenses leave beyond the
 /// polynomial: on KITTI and Karlsruhe, it passes for a delay of a hundredth of the period.
@@ -36,7 +37,7 @@ constexpr double kRounding = 1e-12;
 void DelayFilter::add(const StereoCamera& camera,
                       double dt_s,
                       const std::vector<RowSample>& samples) {
-  const double kept = std::exp(-static_cast<double>(samples.size()) / kFeatures);
+  const double kept = std::exp(-static_cast<double>(samples.size()) / kMemory);
   normal_ *= kept;
   count_ *= kept;
   squares_ *= kept;

@@ -31,7 +31,7 @@ class DelayFilter {
   Eigen::Matrix<double, kColumns, kColumns> normal_ = decltype(normal_)::Zero();
   Columns solution_ = -Columns::Unit(kUnknowns);  // times the columns: the residual
   double count_ = 0.0;                            // sum of the weights
-  double squares_ = 0.0;                          // weighted sum of residuals before they are known
+  double squares_ = 0.0;  // weighted sum of squared residuals, by the estimate before
   double variance_ = std::numeric_limits<double>::infinity();  // of a residual
 };
 
