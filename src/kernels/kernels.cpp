@@ -24,7 +24,10 @@ const Kernels kernels = {smoothDown,
                          multiplyWindow,
                          takeWindow,
                          takeContrast,
-                         compareWindow};
+                         compareWindow,
+                         fitDisparities,
+                         linearize,
+                         addProducts};
 
 }  // namespace ROTROCC_INSTRUCTIONS
 

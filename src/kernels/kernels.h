@@ -2,13 +2,14 @@
 
 #include "kernels/correlation_kernels.h"
 #include "kernels/image_kernels.h"
+#include "kernels/reprojection_kernels.h"
 #include "kernels/window_kernels.h"
 
 namespace rotrocc {
 
-/// The inner loops over pixels, for one kind of processor. Results are the same for all kinds:
-/// integer sums are exact, and the order of floating-point sums does not depend on the register
-/// width.
+/// The inner loops over pixels and features, for one kind of processor. Results are the same for
+/// all kinds: integer sums are exact, and the order of floating-point sums does not depend on the
+/// register width.
 struct Kernels {
   decltype(&ROTROCC_INSTRUCTIONS::smoothDown) smoothDown;
   decltype(&ROTROCC_INSTRUCTIONS::smoothAlong) smoothAlong;
@@ -25,6 +26,9 @@ struct Kernels {
   decltype(&ROTROCC_INSTRUCTIONS::takeWindow) takeWindow;
   decltype(&ROTROCC_INSTRUCTIONS::takeContrast) takeContrast;
   decltype(&ROTROCC_INSTRUCTIONS::compareWindow) compareWindow;
+  decltype(&ROTROCC_INSTRUCTIONS::fitDisparities) fitDisparities;
+  decltype(&ROTROCC_INSTRUCTIONS::linearize) linearize;
+  decltype(&ROTROCC_INSTRUCTIONS::addProducts) addProducts;
 };
 
 /// Largest number of 16-bit values in a register. Rows need as many values beyond their end,

@@ -69,7 +69,7 @@ struct Condensed {
       return true;
     }
     using Normal = Eigen::Matrix<double, NUM_RESIDUALS, NUM_RESIDUALS>;
-    Normal normal = problem.normalMatrix(T, ReprojectionProblem::kResidual - kParameters)
+    Normal normal = problem.normalMatrix(T, LinearBlock::kResidual - kParameters)
                         .template bottomRightCorner<NUM_RESIDUALS, NUM_RESIDUALS>();
     if constexpr (kParameters == 6) {
       // From derivatives by a rotation that follows to derivatives by the rotation vector.
@@ -112,12 +112,12 @@ bool minimize(ReprojectionProblem& problem) {
 /// A Gauss-Newton step.
 template <int kParameters>
 bool improve(ReprojectionProblem& problem) {
-  constexpr int kFirst = ReprojectionProblem::kResidual - kParameters;
+  constexpr int kFirst = LinearBlock::kResidual - kParameters;
   const auto normal = problem.normalMatrix(problem.motion(), kFirst);
   const Eigen::Matrix<double, kParameters, 1> step =
       normal.template block<kParameters, kParameters>(kFirst, kFirst)
           .ldlt()
-          .solve(normal.template block<kParameters, 1>(kFirst, ReprojectionProblem::kResidual));
+          .solve(normal.template block<kParameters, 1>(kFirst, LinearBlock::kResidual));
   const Condensed<kParameters> condensed = {problem};
   return moveTo(condensed.motionAt(condensed.start() - step), problem);
 }

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "common/image_grid.h"
+#include "kernels/kernels.h"
 #include "motion/feature_errors.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/stereo_camera.h"
@@ -53,13 +54,7 @@ constexpr double kSmoothRatio = 1.8;
 /// regression). A ratio of 0 gives the paper's least squares.
 class ReprojectionProblem {
  public:
-  /// Columns of a linearized residual: its derivatives by a bias of all disparities, by a rotation
-  /// applied after that of the motion and by the translation, and the residual itself.
-  static constexpr int kBias = 0;
-  static constexpr int kMotion = 1;
-  static constexpr int kTranslation = 4;
-  static constexpr int kResidual = 7;
-  static constexpr int kColumns = 8;
+  static constexpr int kColumns = LinearBlock::kColumns;
 
   /// sum w [J r]^T [J r]: J^T J, with J^T r in the last column and r^T r in the lower right corner.
   using NormalMatrix = Eigen::Matrix<double, kColumns, kColumns>;
@@ -96,12 +91,13 @@ class ReprojectionProblem {
   /// eliminated (Schur complement) from normalMatrix().
   void shareErrors(double cell_ratio, double smooth_ratio);
 
-  /// The normal matrix at a motion: columns from `first` on, the others are zero.
+  /// The normal matrix at a motion: columns of LinearBlock from `first` on, the others are zero.
   NormalMatrix normalMatrix(const Eigen::Isometry3d& T_keyframe_cur, int first) const;
 
   /// Sum of w |r|^2, without the part that shared errors explain.
   double cost(const Eigen::Isometry3d& T_keyframe_cur) const {
-    return normalMatrix(T_keyframe_cur, kResidual)(kResidual, kResidual);
+    return normalMatrix(T_keyframe_cur, LinearBlock::kResidual)(LinearBlock::kResidual,
+                                                                LinearBlock::kResidual);
   }
 
   /// |r| of all features at motion() [px], whatever their weights.
@@ -110,56 +106,30 @@ class ReprojectionProblem {
   /// Calls visit(const Term&) for each feature with a weight, in order, at a motion.
   template <class Visit>
   void visit(const Eigen::Isometry3d& T_keyframe_cur, const Visit& visit) const {
-    Linear linear;
+    const FeatureView view = viewFrom(T_keyframe_cur);
+    LinearBlock linear;
     for (std::size_t i = 0; i < count_; ++i) {
-      const Block& block = blocks_[i / kSize];
-      const auto lane = static_cast<Eigen::Index>(i % kSize);
-      if (lane == 0) linearize(T_keyframe_cur, kBias, block, linear);
-      if (block.weight[lane] > 0.0) visit(termOf(i, block, lane, linear));
+      const FeatureBlock& block = blocks_[i / kSize];
+      if (i % kSize == 0) chooseKernels().linearize(view, LinearBlock::kBias, block, linear);
+      if (block.weight[i % kSize] > 0.0) visit(termOf(i, block, linear));
     }
   }
 
  private:
-  /// So many features are processed together: the compiler vectorizes Eigen's arrays.
-  static constexpr std::size_t kSize = 8;
-  using Numbers = Eigen::Array<double, kSize, 1>;
+  static constexpr std::size_t kSize = FeatureBlock::kSize;
 
-  /// The features of a block at a motion.
-  struct Seen {
-    Numbers turned_x, turned_y, turned_z;  // R X_cur
-    Numbers in_front;                      // 1, or 0 if the depth is limited
-    Numbers per_z, u, v;                   // projection, from the principal point
-  };
-  struct Block {
-    Numbers target_x, target_y;  // keyframe_px, from the principal point
-    Numbers x, y, z;             // X_cur at the measured disparity [m]
-    Numbers disparity;           // measured, above that at infinity [px]
-    Numbers moved;               // fitted less measured disparity [px]
-    Numbers nearer;              // fitted depth over measured depth
-    Numbers w_xx, w_xy, w_yy;    // W
-    Numbers by_x, by_y;          // W j
-    Numbers weight;              // 0: not in the set, or no feature
-    Seen seen;                   // at motion()
-  };
-  struct Linear {
-    Numbers x[kColumns], y[kColumns];  // both rows of a residual
-  };
-
-  Seen look(const Eigen::Isometry3d& T_keyframe_cur, const Block& block) const;
-  void linearize(const Eigen::Isometry3d& T_keyframe_cur,
-                 int first,
-                 const Block& block,
-                 Linear& linear) const;
-  static Term termOf(std::size_t i, const Block& block, Eigen::Index lane, const Linear& linear);
+  FeatureView viewFrom(const Eigen::Isometry3d& T_keyframe_cur) const;
+  double& weightOf(std::size_t i) { return blocks_[i / kSize].weight[i % kSize]; }
+  static Term termOf(std::size_t i, const FeatureBlock& block, const LinearBlock& linear);
 
   StereoCamera camera_;
   double noise_ratio_ = 0.0;
   Eigen::Isometry3d T_keyframe_cur_ = Eigen::Isometry3d::Identity();
   std::size_t count_ = 0;
-  std::vector<Block> blocks_;
+  std::vector<FeatureBlock> blocks_;
   double cell_ratio_ = 0.0;                  // 0: no shared errors
   double smooth_ratio_ = 0.0;                // 0: no smooth ones
-  std::vector<std::size_t> cells_;           // of SharedErrorGrid
+  std::vector<Eigen::Index> cells_;          // of SharedErrorGrid
   std::vector<double> errors_px_, weights_;  // reused
 };
 

@@ -181,7 +181,7 @@ double MotionCheck::informationShare(const Hypothesis& accepted) {
   const Eigen::Isometry3d& T_keyframe_cur = accepted.estimate.T_keyframe_cur;
   problem_.assign({accepted.camera, accepted.features, noise_ratio}, T_keyframe_cur);
   const auto informationAt = [&]() -> Matrix6d {
-    constexpr int kMotion = ReprojectionProblem::kMotion;
+    constexpr int kMotion = LinearBlock::kMotion;
     return problem_.normalMatrix(T_keyframe_cur, kMotion).block<6, 6>(kMotion, kMotion);
   };
   const Matrix6d of_all = informationAt();

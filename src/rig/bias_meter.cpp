@@ -44,13 +44,14 @@ struct Bias {
 };
 
 Bias eliminateMotion(const Problem::NormalMatrix& normal) {
-  const auto of_motion = normal.block<6, 6>(Problem::kMotion, Problem::kMotion).ldlt();
-  const Vector6d mixed = normal.block<6, 1>(Problem::kMotion, Problem::kBias);
+  const auto of_motion = normal.block<6, 6>(LinearBlock::kMotion, LinearBlock::kMotion).ldlt();
+  const Vector6d mixed = normal.block<6, 1>(LinearBlock::kMotion, LinearBlock::kBias);
   Bias bias;
   bias.motion_by_bias = -of_motion.solve(mixed);
-  bias.motion = -of_motion.solve(normal.block<6, 1>(Problem::kMotion, Problem::kResidual));
-  bias.information = normal(Problem::kBias, Problem::kBias) + mixed.dot(bias.motion_by_bias);
-  bias.weighted = -normal(Problem::kBias, Problem::kResidual) - mixed.dot(bias.motion);
+  bias.motion = -of_motion.solve(normal.block<6, 1>(LinearBlock::kMotion, LinearBlock::kResidual));
+  bias.information =
+      normal(LinearBlock::kBias, LinearBlock::kBias) + mixed.dot(bias.motion_by_bias);
+  bias.weighted = -normal(LinearBlock::kBias, LinearBlock::kResidual) - mixed.dot(bias.motion);
   return bias;
 }
 
@@ -64,7 +65,7 @@ std::optional<BiasMeasurement> BiasMeter::measure(const StereoCamera& camera,
   features_ = features;
   for (int step = 0; step < kMostSteps && features_.size() >= kLeastFeatures; ++step) {
     const double variance_px2 = linearize();
-    const Bias bias = eliminateMotion(problem_.normalMatrix(T_keyframe_cur_, Problem::kBias));
+    const Bias bias = eliminateMotion(problem_.normalMatrix(T_keyframe_cur_, LinearBlock::kBias));
     if (!(variance_px2 / bias.information < kMostSigma_px * kMostSigma_px)) return std::nullopt;
     const double step_px = bias.weighted / bias.information;
     if (!std::isfinite(step_px)) return std::nullopt;
@@ -102,9 +103,9 @@ std::optional<BiasMeasurement> BiasMeter::describe() {
   // The curvature of reweighted least squares never overshoots. That which the robust cost has on
   // average, from the squared weights (see motion_estimator.cpp), gives the uncertainty.
   problem_.squareWeights();
-  const Bias all = eliminateMotion(problem_.normalMatrix(T_keyframe_cur_, Problem::kBias));
+  const Bias all = eliminateMotion(problem_.normalMatrix(T_keyframe_cur_, LinearBlock::kBias));
   problem_.shareErrors(0.0, 0.0);
-  const Bias alone = eliminateMotion(problem_.normalMatrix(T_keyframe_cur_, Problem::kBias));
+  const Bias alone = eliminateMotion(problem_.normalMatrix(T_keyframe_cur_, LinearBlock::kBias));
   BiasMeasurement measurement;
   measurement.noise_px2 = variance_px2 / alone.information;
   measurement.shared_px2 = variance_px2 / all.information - measurement.noise_px2;

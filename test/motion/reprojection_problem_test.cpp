@@ -9,6 +9,7 @@
 #include <ceres/rotation.h>
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
+#include <opencv2/core.hpp>
 
 #include "support/simulated_features.h"
 
@@ -154,15 +155,14 @@ TEST(ReprojectionProblemTest, WithoutNoiseOfDisparitiesItIsThePapersLeastSquares
         normal += term.weight * row.transpose() * row;
       });
       EXPECT_EQ(next, features.size());
-      EXPECT_LT((problem.normalMatrix(T, ReprojectionProblem::kBias) - normal).norm(),
+      EXPECT_LT((problem.normalMatrix(T, LinearBlock::kBias) - normal).norm(),
                 1e-12 * normal.norm());
       EXPECT_NEAR(problem.cost(T), normal(7, 7), 1e-12 * normal(7, 7));
       ReprojectionProblem::NormalMatrix of_translation = normal;
       of_translation.topRows<4>().setZero();
       of_translation.leftCols<4>().setZero();
-      EXPECT_LT(
-          (problem.normalMatrix(T, ReprojectionProblem::kTranslation) - of_translation).norm(),
-          1e-12 * normal.norm());
+      EXPECT_LT((problem.normalMatrix(T, LinearBlock::kTranslation) - of_translation).norm(),
+                1e-12 * normal.norm());
     }
   }
 }
@@ -197,7 +197,7 @@ Eigen::MatrixXd schurComplement(const ReprojectionProblem& problem,
 }
 
 TEST(ReprojectionProblemTest, EliminatesTheErrorsThatNeighborsShare) {
-  constexpr int kBias = ReprojectionProblem::kBias;
+  constexpr int kBias = LinearBlock::kBias;
   for (const Eigen::Isometry3d& T_0 : someMotions()) {
     const Correspondences features = someFeatures(T_0);
     const Eigen::Isometry3d T = T_0 * motion({0.1, -0.05, 0.2}, {0.006, -0.0064, 0.0048});
@@ -219,6 +219,22 @@ TEST(ReprojectionProblemTest, EliminatesTheErrorsThatNeighborsShare) {
     problem.shareErrors(0.0, 0.0);
     EXPECT_EQ(problem.normalMatrix(T, kBias), without);
   }
+}
+
+/// The inner loops are compiled for several processors.
+TEST(ReprojectionProblemTest, IsTheSameForAllProcessors) {
+  const Eigen::Isometry3d T = someMotions().back();
+  const Correspondences features = someFeatures(T);
+  const auto normalMatrix = [&](bool is_optimized) {
+    cv::setUseOptimized(is_optimized);
+    ReprojectionProblem problem;
+    problem.assign({kittiCamera(), features, kNoiseRatio}, T);
+    problem.weigh(2.0);
+    problem.shareErrors(0.5, 0.7);
+    return problem.normalMatrix(T * motion({0.1, 0.0, 0.2}, {0.0, 0.005, 0.0}), LinearBlock::kBias);
+  };
+  const auto by_any = normalMatrix(false);
+  EXPECT_EQ(normalMatrix(true), by_any);
 }
 
 }  // namespace
