@@ -65,29 +65,22 @@ TrackingWindow::TrackingWindow(int radius_px)
 
 /// The patch for a window of the given radius. Pixels outside the image repeat its border.
 Patch TrackingWindow::patchAround(const cv::Mat& image, const cv::Point2f& center, int radius) {
-  const int x = cvFloor(center.x);
-  const int y = cvFloor(center.y);
-  const cv::Rect area(x - radius, y - radius, columnsOf(2 * radius + 1) + 1, 2 * radius + 2);
-  Patch patch = {border_.data(),
-                 area.width,
-                 fractionOf(center.x - static_cast<float>(x)),
-                 fractionOf(center.y - static_cast<float>(y))};
-  if (area.x >= 0 && area.y >= 0 && area.x + area.width <= image.cols &&
-      area.y + area.height <= image.rows) {
-    patch.pixels = image.ptr<uchar>(area.y) + area.x;
-    patch.step = static_cast<std::ptrdiff_t>(image.step);
-    return patch;
+  const cv::Point first(cvFloor(center.x) - radius, cvFloor(center.y) - radius);
+  const int side = 2 * radius + 2;
+  const int step = columnsOf(side - 1) + 1;
+  if (first.x >= 0 && first.y >= 0 && first.x + step <= image.cols &&
+      first.y + side <= image.rows) {
+    return patchAt(image, center, radius);
   }
-  const cv::Rect inside = area & cv::Rect({}, image.size());
-  cv::Mat repeated(area.size(), CV_8UC1, border_.data());
-  cv::copyMakeBorder(image(inside),
-                     repeated,
-                     inside.y - area.y,
-                     area.br().y - inside.br().y,
-                     inside.x - area.x,
-                     area.br().x - inside.br().x,
-                     cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
-  return patch;
+  for (int y = 0; y < side; ++y) {
+    const auto* row = image.ptr<uchar>(std::clamp(first.y + y, 0, image.rows - 1));
+    uchar* to = border_.data() + y * step;
+    for (int x = 0; x < side; ++x) to[x] = row[std::clamp(first.x + x, 0, image.cols - 1)];
+  }
+  return {border_.data(),
+          step,
+          fractionOf(center.x - static_cast<float>(first.x + radius)),
+          fractionOf(center.y - static_cast<float>(first.y + radius))};
 }
 
 bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float scale) {

@@ -15,17 +15,15 @@ constexpr int kReach = 2;
 
 /// Smooths the image vertically at row `y`, times 16, into `sums`, and reflects it on both sides.
 void smoothDown(const Kernels& kernels, const cv::Mat& image, int y, std::int16_t* sums) {
+  const auto inside = [](int i, int count) {
+    return i >= 0 && i < count ? i : cv::borderInterpolate(i, count, cv::BORDER_REFLECT_101);
+  };
   const uchar* rows[2 * kReach + 1];
   for (int i = -kReach; i <= kReach; ++i) {
-    rows[i + kReach] =
-        image.ptr<uchar>(cv::borderInterpolate(y + i, image.rows, cv::BORDER_REFLECT_101));
+    rows[i + kReach] = image.ptr<uchar>(inside(y + i, image.rows));
   }
   kernels.smoothDown(rows, image.cols, sums);
-  for (int i = 1; i <= kReach; ++i) {
-    sums[-i] = sums[cv::borderInterpolate(-i, image.cols, cv::BORDER_REFLECT_101)];
-    const int right = image.cols - 1 + i;
-    sums[right] = sums[cv::borderInterpolate(right, image.cols, cv::BORDER_REFLECT_101)];
-  }
+  for (const int x : {-2, -1, image.cols, image.cols + 1}) sums[x] = sums[inside(x, image.cols)];
 }
 
 }  // namespace

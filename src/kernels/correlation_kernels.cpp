@@ -39,24 +39,16 @@ void multiplyParts(const std::int16_t* window,
 /// For each column of the strip, sums over the rows of a part: of values and of their squares.
 void sumPartColumns(
     const std::int16_t* strip, int stride, int columns, std::int32_t* sums, std::int32_t* squares) {
-  for (int x = 0; x < columns; x += kShorts) {
-    Shorts sum = vx_setall_s16(0);
-    Ints low = vx_setzero_s32();
-    Ints high = vx_setzero_s32();
-    for (int i = 0; i < W::kParts; i += 2) {
-      const Shorts a = vx_load(strip + W::kPartRows[i] * stride + x);
-      const Shorts b = vx_load(strip + W::kPartRows[i + 1] * stride + x);
-      sum = sum + a + b;
-      Shorts ab_low, ab_high;
-      v_zip(a, b, ab_low, ab_high);
-      low += v_dotprod(ab_low, ab_low);
-      high += v_dotprod(ab_high, ab_high);
+  for (int x = 0; x < columns; ++x) {
+    std::int32_t sum = 0;
+    std::int32_t square = 0;
+    for (const int y : W::kPartRows) {
+      const std::int16_t value = strip[y * stride + x];
+      sum += value;
+      square += value * value;
     }
-    v_store(squares + x, low);
-    v_store(squares + x + kInts, high);
-    v_expand(sum, low, high);
-    v_store(sums + x, low);
-    v_store(sums + x + kInts, high);
+    sums[x] = sum;
+    squares[x] = square;
   }
 }
 

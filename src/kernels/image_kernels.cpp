@@ -1,66 +1,21 @@
 #include "kernels/image_kernels.h"
 
+#include <math.h>
+
 #include "kernels/lanes.h"
 
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
-namespace {
 
-Shorts smooth(const Shorts& a, const Shorts& b, const Shorts& c, const Shorts& d, const Shorts& e) {
-  return a + e + shiftLeft<2>(b + c + d) + c + c;
-}
+// The compiler vectorizes plain loops.
 
-int smooth(int a, int b, int c, int d, int e) {
-  return a + e + 4 * (b + c + d) + 2 * c;
-}
-
-/// Smaller eigenvalues of [xx xy; xy yy].
-Floats smallerEigenvalues(const Floats& xx, const Floats& xy, const Floats& yy) {
-  const Floats difference = xx - yy;
-  const Floats root = v_sqrt(difference * difference + vx_setall_f32(4.0F) * xy * xy);
-  return vx_setall_f32(0.5F) * (xx + yy - root);
-}
-
-/// Values of two registers in turn.
-struct Zipped {
-  Shorts low, high;
-};
-
-Zipped zip(const Shorts& first, const Shorts& second) {
-  Zipped zipped;
-  v_zip(first, second, zipped.low, zipped.high);
-  return zipped;
-}
-
-Zipped withMinusSecond(const Zipped& a) {
-  const Shorts signs = alternate(1, -1);
-  return {v_mul_wrap(a.low, signs), v_mul_wrap(a.high, signs)};
-}
-
-/// Adds the products of the first values and those of the second ones.
-void addProducts(const Zipped& a, const Zipped& b, std::int32_t* to) {
-  v_store(to, vx_load(to) + v_dotprod(a.low, b.low));
-  v_store(to + kInts, vx_load(to + kInts) + v_dotprod(a.high, b.high));
-}
-
-}  // namespace
-
-void smoothDown(const std::uint8_t* const* rows, int columns, std::int16_t* sums) {
+void smoothDown(const std::uint8_t* const* rows, int columns, std::int16_t* __restrict sums) {
   const std::uint8_t* a = rows[0];
   const std::uint8_t* b = rows[1];
   const std::uint8_t* c = rows[2];
   const std::uint8_t* d = rows[3];
   const std::uint8_t* e = rows[4];
-  int x = 0;
-  for (; x <= columns - kShorts; x += kShorts) {
-    v_store(sums + x,
-            smooth(loadBytes(a + x),
-                   loadBytes(b + x),
-                   loadBytes(c + x),
-                   loadBytes(d + x),
-                   loadBytes(e + x)));
-  }
-  for (; x < columns; ++x) {
-    sums[x] = static_cast<std::int16_t>(smooth(a[x], b[x], c[x], d[x], e[x]));
+  for (int x = 0; x < columns; ++x) {
+    sums[x] = static_cast<std::int16_t>(a[x] + 4 * (b[x] + d[x]) + 6 * c[x] + e[x]);
   }
 }
 
@@ -78,7 +33,7 @@ void smoothAlong(const std::int16_t* sums, int columns, std::uint8_t* out) {
     storeBytes(out + x, smoothPairs(sums), smoothPairs(sums + kShorts));
   }
   for (; x < columns; ++x, sums += 2) {
-    const int sum = smooth(sums[-2], sums[-1], sums[0], sums[1], sums[2]);
+    const int sum = sums[-2] + 4 * (sums[-1] + sums[1]) + 6 * sums[0] + sums[2];
     out[x] = static_cast<std::uint8_t>((sum + 128) >> 8);
   }
 }
@@ -87,17 +42,9 @@ void differentiateRow(const std::uint8_t* above,
                       const std::uint8_t* here,
                       const std::uint8_t* below,
                       int columns,
-                      std::int16_t* smooth,
-                      std::int16_t* steps) {
-  int x = 0;
-  for (; x <= columns - kShorts; x += kShorts) {
-    const Shorts a = loadBytes(above + x);
-    const Shorts h = loadBytes(here + x);
-    const Shorts b = loadBytes(below + x);
-    v_store(smooth + x, a + h + h + b);
-    v_store(steps + x, b - a);
-  }
-  for (; x < columns; ++x) {
+                      std::int16_t* __restrict smooth,
+                      std::int16_t* __restrict steps) {
+  for (int x = 0; x < columns; ++x) {
     smooth[x] = static_cast<std::int16_t>(above[x] + 2 * here[x] + below[x]);
     steps[x] = static_cast<std::int16_t>(below[x] - above[x]);
   }
@@ -106,54 +53,48 @@ void differentiateRow(const std::uint8_t* above,
 void replaceGradients(const std::int16_t* smooth,
                       const std::int16_t* steps,
                       int columns,
-                      std::int16_t* gradient_x,
-                      std::int16_t* gradient_y,
+                      std::int16_t* __restrict gradient_x,
+                      std::int16_t* __restrict gradient_y,
                       ColumnSums sums) {
-  for (int x = 0; x < columns; x += kShorts) {
-    const Shorts middle = vx_load(steps + x + 1);
-    const Shorts gx = vx_load(smooth + x + 2) - vx_load(smooth + x);
-    const Shorts gy = vx_load(steps + x) + middle + middle + vx_load(steps + x + 2);
-    const Zipped xs = zip(gx, vx_load(gradient_x + x));
-    const Zipped ys = zip(gy, vx_load(gradient_y + x));
-    const Zipped signed_xs = withMinusSecond(xs);
-    const Zipped signed_ys = withMinusSecond(ys);
-    addProducts(xs, signed_xs, sums.xx + x);
-    addProducts(xs, signed_ys, sums.xy + x);
-    addProducts(ys, signed_ys, sums.yy + x);
-    v_store(gradient_x + x, gx);
-    v_store(gradient_y + x, gy);
+  std::int32_t* __restrict xx = sums.xx;
+  std::int32_t* __restrict xy = sums.xy;
+  std::int32_t* __restrict yy = sums.yy;
+  for (int x = 0; x < columns; ++x) {
+    const auto gx = static_cast<std::int16_t>(smooth[x + 2] - smooth[x]);
+    const auto gy = static_cast<std::int16_t>(steps[x] + 2 * steps[x + 1] + steps[x + 2]);
+    const auto old_x = gradient_x[x];
+    const auto old_y = gradient_y[x];
+    xx[x] += static_cast<std::int16_t>(gx + old_x) * static_cast<std::int16_t>(gx - old_x);
+    xy[x] += gx * gy - old_x * old_y;
+    yy[x] += static_cast<std::int16_t>(gy + old_y) * static_cast<std::int16_t>(gy - old_y);
+    gradient_x[x] = gx;
+    gradient_y[x] = gy;
   }
 }
 
-void respondRow(ColumnSums sums, int columns, float* response) {
+void respondRow(ColumnSums sums, int columns, float* __restrict response) {
   constexpr int kSide = ColumnSums::kSide;
   // A slope of one gray level per pixel gives a Sobel gradient of 8.
-  const Floats scale = vx_setall_f32(1.0F / (64.0F * static_cast<float>(kSide * kSide)));
-  for (int x = 0; x < columns; x += kInts) {
-    Ints xx = vx_load(sums.xx + x);
-    Ints xy = vx_load(sums.xy + x);
-    Ints yy = vx_load(sums.yy + x);
-    for (int k = x + 1; k < x + kSide; ++k) {
-      xx = xx + vx_load(sums.xx + k);
-      xy = xy + vx_load(sums.xy + k);
-      yy = yy + vx_load(sums.yy + k);
-    }
-    v_store(
-        response + x,
-        smallerEigenvalues(scale * v_cvt_f32(xx), scale * v_cvt_f32(xy), scale * v_cvt_f32(yy)));
+  constexpr float kScale = 1.0F / (64.0F * static_cast<float>(kSide * kSide));
+  const auto mean = [](const std::int32_t* at) {
+    return kScale * static_cast<float>(at[0] + at[1] + at[2] + at[3] + at[4]);
+  };
+  static_assert(kSide == 5);
+  for (int x = 0; x < columns; ++x) {
+    const float xx = mean(sums.xx + x);
+    const float xy = mean(sums.xy + x);
+    const float yy = mean(sums.yy + x);
+    const float root = sqrtf((xx - yy) * (xx - yy) + 4.0F * xy * xy);
+    response[x] = 0.5F * (xx + yy - root);  // the smaller eigenvalue of [xx xy; xy yy]
   }
 }
 
 void highestOfColumns(
-    const float* first, std::ptrdiff_t step, int rows, int columns, float* highest) {
-  for (int x = 0; x < columns; x += kInts) {
-    const float* row = first + x;
-    Floats most = vx_load(row);
-    for (int y = 1; y < rows; ++y) {
-      row += step;
-      most = v_max(most, vx_load(row));
-    }
-    v_store(highest + x, most);
+    const float* first, std::ptrdiff_t step, int rows, int columns, float* __restrict highest) {
+  for (int x = 0; x < columns; ++x) highest[x] = first[x];
+  for (int y = 1; y < rows; ++y) {
+    first += step;
+    for (int x = 0; x < columns; ++x) highest[x] = first[x] > highest[x] ? first[x] : highest[x];
   }
 }
 
