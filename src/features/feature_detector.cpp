@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <utility>
+#include <tuple>
 
 #include "features/image_noise.h"
 #include "kernels/kernels.h"
@@ -22,14 +21,6 @@ float minResponse(double noise_variance) {
   constexpr double kSobelSquares = 12.0 / 64.0;  // of a gradient in gray levels per pixel
   const double variance = std::min(noise_variance, kMaxDeviation * kMaxDeviation);
   return std::max(kMinTexture, static_cast<float>(kOverNoise * kSobelSquares * variance));
-}
-
-/// Steps of strength, 32 in each octave. All compilers and processors compute the same.
-int strengthOf(float response) {
-  constexpr int kSteps = 32;
-  int octave = 0;
-  const float mantissa = std::frexp(response, &octave);  // from 1/2 to 1
-  return kSteps * octave + static_cast<int>(2 * kSteps * mantissa);
 }
 
 /// Whether no pixel within `radius_px` of (x, row) has a larger response, and none above or to the
@@ -172,33 +163,18 @@ void FeatureDetector::searchBand(int width,
 void FeatureDetector::selectByCells(const cv::Size& size,
                                     std::size_t max_count,
                                     std::vector<cv::Point2f>& corners) {
-  float strongest = 0.0F;
-  for (const Candidate& c : candidates_) strongest = std::max(strongest, c.response);
-  const int most = strengthOf(strongest);
-  for (Candidate& c : candidates_) c.rank = most - strengthOf(c.response);
-  sortByRank();
+  const auto sort = [&] {
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+      return std::tuple(a.rank, b.response, a.y, a.x) < std::tuple(b.rank, a.response, b.y, b.x);
+    });
+  };
+  sort();
   rankInCells(size);
-  sortByRank();
+  sort();
   candidates_.resize(std::min(max_count, candidates_.size()));
   for (const Candidate& c : candidates_) {
     corners.emplace_back(static_cast<float>(c.x), static_cast<float>(c.y));
   }
-}
-
-/// By counting: in linear time, and equal ones keep their order.
-void FeatureDetector::sortByRank() {
-  starts_.assign(1, 0);
-  for (const Candidate& c : candidates_) {
-    const auto next = static_cast<std::size_t>(c.rank) + 1;
-    if (next >= starts_.size()) starts_.resize(next + 1, 0);
-    ++starts_[next];
-  }
-  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-  sorted_.resize(candidates_.size());
-  for (const Candidate& c : candidates_) {
-    sorted_[static_cast<std::size_t>(starts_[static_cast<std::size_t>(c.rank)]++)] = c;
-  }
-  std::swap(candidates_, sorted_);
 }
 
 /// Counts for each of the candidates, which begin with the strongest, those before it in its cell.

@@ -64,7 +64,7 @@ class FeatureDetector {
   struct Candidate {
     float response;
     int x, y;
-    int rank;  ///< key of the order: steps from the strongest, then stronger ones in its cell
+    int rank;  ///< number of stronger ones in its cell
   };
 
   void findCandidates(const cv::Mat& image, const FeatureMask& mask);
@@ -72,7 +72,6 @@ class FeatureDetector {
   void selectByCells(const cv::Size& size,
                      std::size_t max_count,
                      std::vector<cv::Point2f>& corners);
-  void sortByRank();
   void rankInCells(const cv::Size& size);
 
   Config config_;
@@ -80,8 +79,7 @@ class FeatureDetector {
   cv::Mat response_;            // with a margin around it
   std::vector<float> highest_;  // maximum of each column
   std::vector<int> peaks_;      // local maxima of `highest_`
-  std::vector<Candidate> candidates_, sorted_;
-  std::vector<int> starts_;  // of candidates of equal ranks
+  std::vector<Candidate> candidates_;
   std::vector<int> cell_counts_;
   std::vector<int> noise_;  // responses to a mask
   float min_response_ = 0.0F;
