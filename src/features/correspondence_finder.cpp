@@ -62,9 +62,10 @@ FramePtr CorrespondenceFinder::makeFrame(const StereoPair& pair, int level) {
   return frame;
 }
 
-void CorrespondenceFinder::findCorners(Keyframe& keyframe) {
+void CorrespondenceFinder::findCorners(const StereoCamera& camera, Keyframe& keyframe) {
   const StereoFrame& frame = *keyframe.frame;
-  detector_.detect(frame.left.front(), keyframe.corners, kCandidates, frame.left_mask);
+  detector_.detect(
+      frame.left.front(), keyframe.corners, kCandidates, frame.left_mask, camera.detail_px);
 }
 
 void CorrespondenceFinder::findDepths(const StereoCamera& camera, Keyframe& keyframe) {

@@ -23,6 +23,9 @@ float minResponse(double noise_variance) {
   return std::max(kMinTexture, static_cast<float>(kOverNoise * kSobelSquares * variance));
 }
 
+/// Smallest distance between two corners, over the side of a feature's share of the image.
+constexpr double kOfFeature = 0.3;
+
 /// Whether no pixel within `radius_px` of (x, row) has a larger response, and none above or to the
 /// left an equal one. Of equally strong corners, as in drawn patterns and saturated areas, the
 /// first one counts. None in the rows from `row` to `below` is larger.
@@ -106,10 +109,15 @@ FeatureDetector::FeatureDetector(const Config& config) : config_(config) {}
 void FeatureDetector::detect(const cv::Mat& image,
                              std::vector<cv::Point2f>& corners,
                              int candidates,
-                             const FeatureMask& mask) {
+                             const FeatureMask& mask,
+                             double detail_px) {
   corners.clear();
-  if (std::min(image.cols, image.rows) <= 2 * (kBorder_px + kRadius_px)) return;
+  if (std::min(image.cols, image.rows) <= 2 * (kBorder_px + kMaxRadius_px)) return;
 
+  const double share_px2 = static_cast<double>(image.total()) / config_.max_features;
+  const int wanted_px = cvRound(kOfFeature * std::sqrt(share_px2));
+  const int least_px = cvRound(kMinRadius_px * detail_px);
+  radius_px_ = std::min(std::max(wanted_px, least_px), kMaxRadius_px);
   min_response_ = minResponse(noiseVariance(image, noise_));
   candidates_.clear();
   findCandidates(image, mask);
@@ -117,25 +125,25 @@ void FeatureDetector::detect(const cv::Mat& image,
 }
 
 void FeatureDetector::findCandidates(const cv::Mat& image, const FeatureMask& mask) {
-  constexpr int kMargin = kRadius_px / kRowStep;
+  const int margin = radius_px_ / kRowStep;
   const int first_row = (kBorder_px + kRowStep - 1) / kRowStep;
   const int last_row = (image.rows - kBorder_px + kRowStep - 1) / kRowStep;
-  const int top = first_row - kMargin;
-  corner_response_.compute(image, top, last_row + kMargin, kRadius_px, response_);
+  const int top = first_row - margin;
+  corner_response_.compute(image, top, last_row + margin, radius_px_, response_);
   highest_.resize(static_cast<std::size_t>(response_.cols));
-  for (int first = first_row; first < last_row; first += kMargin + 1) {
-    searchBand(image.cols, {first, std::min(first + kMargin + 1, last_row)}, top, mask);
+  for (int first = first_row; first < last_row; first += margin + 1) {
+    searchBand(image.cols, {first, std::min(first + margin + 1, last_row)}, top, mask);
   }
 }
 
-/// Searches rows that are all within kRadius_px of each other. A corner must be the maximum of
+/// Searches rows that are all within the radius of each other. A corner must be the maximum of
 /// its column in these rows, and no neighboring column may have a larger one. Only these few
 /// pixels are then compared with all their neighbors. The response begins with row `top`.
 void FeatureDetector::searchBand(int width,
                                  const cv::Range& rows,
                                  int top,
                                  const FeatureMask& mask) {
-  const int radius = kRadius_px;
+  const int radius = radius_px_;
   const cv::Range band(rows.start - top, rows.end - top);
   float* highest = highest_.data();
   const Kernels& kernels = chooseKernels();

@@ -44,8 +44,10 @@ class FeatureDetector {
  public:
   using Config = FeatureDetectorConfig;
 
-  /// Smallest distance between two corners, in x or y: windows of the tracker overlap by half.
-  static constexpr int kRadius_px = 5;
+  /// Smallest distance between two corners, in x or y: windows of the tracker overlap by half. In
+  /// an image that has few places so far apart, it is less, but two corners are no blur of one.
+  static constexpr int kMaxRadius_px = 5;
+  static constexpr int kMinRadius_px = 3;
   /// No corners are closer to the border of the image: windows of the matcher fit in.
   static constexpr int kBorder_px = 8;
 
@@ -54,11 +56,12 @@ class FeatureDetector {
   /// Finds at most max_features times `candidates` corners of `image` (CV_8UC1), at integer pixels
   /// that the mask does not exclude. The image has about max_features cells. The strongest corners
   /// of all cells come first, then the second strongest of all cells, and so on. Returns none if
-  /// the image is too small.
+  /// the image is too small. `detail_px`: see StereoCamera.
   void detect(const cv::Mat& image,
               std::vector<cv::Point2f>& corners,
               int candidates = 1,
-              const FeatureMask& mask = {});
+              const FeatureMask& mask = {},
+              double detail_px = 1.0);
 
  private:
   struct Candidate {
@@ -83,6 +86,7 @@ class FeatureDetector {
   std::vector<int> cell_counts_;
   std::vector<int> noise_;  // responses to a mask
   float min_response_ = 0.0F;
+  int radius_px_ = kMaxRadius_px;
 };
 
 }  // namespace rotrocc

@@ -9,13 +9,9 @@ namespace rotrocc::ROTROCC_INSTRUCTIONS {
 // The compiler vectorizes plain loops.
 
 void smoothDown(const std::uint8_t* const* rows, int columns, std::int16_t* __restrict sums) {
-  const std::uint8_t* a = rows[0];
-  const std::uint8_t* b = rows[1];
-  const std::uint8_t* c = rows[2];
-  const std::uint8_t* d = rows[3];
-  const std::uint8_t* e = rows[4];
   for (int x = 0; x < columns; ++x) {
-    sums[x] = static_cast<std::int16_t>(a[x] + 4 * (b[x] + d[x]) + 6 * c[x] + e[x]);
+    sums[x] = static_cast<std::int16_t>(rows[0][x] + 4 * (rows[1][x] + rows[3][x]) +
+                                        6 * rows[2][x] + rows[4][x]);
   }
 }
 
@@ -30,7 +26,7 @@ void smoothAlong(const std::int16_t* sums, int columns, std::uint8_t* out) {
   };
   int x = 0;
   for (; x <= columns - kShorts; x += kShorts, sums += 2 * kShorts) {
-    storeBytes(out + x, smoothPairs(sums), smoothPairs(sums + kShorts));
+    v_pack_u_store(out + x, v_pack(smoothPairs(sums), smoothPairs(sums + kShorts)));
   }
   for (; x < columns; ++x, sums += 2) {
     const int sum = sums[-2] + 4 * (sums[-1] + sums[1]) + 6 * sums[0] + sums[2];

@@ -34,11 +34,6 @@ inline Shorts loadBytes(const std::uint8_t* from) {
   return v_reinterpret_as_s16(cv::vx_load_expand(from));
 }
 
-/// Stores the lowest bytes of `low`, then of `high`. All values must be 0 to 255.
-inline void storeBytes(std::uint8_t* to, const Ints& low, const Ints& high) {
-  v_pack_u_store(to, v_pack(low, high));
-}
-
 /// a, b, a, b, ...
 inline Shorts alternate(std::int16_t a, std::int16_t b) {
   return v_reinterpret_as_s16(vx_setall_s32(

@@ -307,7 +307,7 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
   keyframe_.T_keyframe_last = {};
   {
     const StageTimer timer(times.corners_ms);
-    finder_->findCorners(keyframe_);
+    finder_->findCorners(rig_.correctedCamera(), keyframe_);
   }
   const StageTimer timer(times.disparity_ms);
   rig_.startKeyframe(keyframe_);
