@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "features/image_noise.h"
 #include "kernels/kernels.h"
@@ -21,6 +20,13 @@ float minResponse(double noise_variance) {
   constexpr double kSobelSquares = 12.0 / 64.0;  // of a gradient in gray levels per pixel
   const double variance = std::min(noise_variance, kMaxDeviation * kMaxDeviation);
   return std::max(kMinTexture, static_cast<float>(kOverNoise * kSobelSquares * variance));
+}
+
+/// Steps of strength, 32 in each octave: the leading bits of a positive number.
+int strengthOf(float response) {
+  Cv32suf bits;
+  bits.f = response;
+  return bits.i >> 18;
 }
 
 /// Smallest distance between two corners, over the side of a feature's share of the image.
@@ -115,9 +121,8 @@ void FeatureDetector::detect(const cv::Mat& image,
   if (std::min(image.cols, image.rows) <= 2 * (kBorder_px + kMaxRadius_px)) return;
 
   const double share_px2 = static_cast<double>(image.total()) / config_.max_features;
-  const int wanted_px = cvRound(kOfFeature * std::sqrt(share_px2));
-  const int least_px = cvRound(kMinRadius_px * detail_px);
-  radius_px_ = std::min(std::max(wanted_px, least_px), kMaxRadius_px);
+  const double radius_px = std::max(kOfFeature * std::sqrt(share_px2), kMinRadius_px * detail_px);
+  radius_px_ = std::min(cvRound(radius_px), kMaxRadius_px);
   min_response_ = minResponse(noiseVariance(image, noise_));
   candidates_.clear();
   findCandidates(image, mask);
@@ -171,17 +176,29 @@ void FeatureDetector::searchBand(int width,
 void FeatureDetector::selectByCells(const cv::Size& size,
                                     std::size_t max_count,
                                     std::vector<cv::Point2f>& corners) {
-  const auto sort = [&] {
-    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-      return std::tuple(a.rank, b.response, a.y, a.x) < std::tuple(b.rank, a.response, b.y, b.x);
-    });
-  };
-  sort();
+  float strongest = 0.0F;
+  for (const Candidate& c : candidates_) strongest = std::max(strongest, c.response);
+  for (Candidate& c : candidates_) c.rank = strengthOf(strongest) - strengthOf(c.response);
+  sortByRank();
   rankInCells(size);
-  sort();
+  sortByRank();
   candidates_.resize(std::min(max_count, candidates_.size()));
   for (const Candidate& c : candidates_) {
     corners.emplace_back(static_cast<float>(c.x), static_cast<float>(c.y));
+  }
+}
+
+/// Equal ones keep their order.
+void FeatureDetector::sortByRank() {
+  for (const Candidate& c : candidates_) {
+    const auto rank = static_cast<std::size_t>(c.rank);
+    if (rank >= of_ranks_.size()) of_ranks_.resize(rank + 1);
+    of_ranks_[rank].push_back(c);
+  }
+  candidates_.clear();
+  for (auto& of_rank : of_ranks_) {
+    candidates_.insert(candidates_.end(), of_rank.begin(), of_rank.end());
+    of_rank.clear();
   }
 }
 

@@ -67,7 +67,7 @@ class FeatureDetector {
   struct Candidate {
     float response;
     int x, y;
-    int rank;  ///< number of stronger ones in its cell
+    int rank;  ///< key of the order: steps from the strongest, then stronger ones in its cell
   };
 
   void findCandidates(const cv::Mat& image, const FeatureMask& mask);
@@ -75,6 +75,7 @@ class FeatureDetector {
   void selectByCells(const cv::Size& size,
                      std::size_t max_count,
                      std::vector<cv::Point2f>& corners);
+  void sortByRank();
   void rankInCells(const cv::Size& size);
 
   Config config_;
@@ -83,6 +84,7 @@ class FeatureDetector {
   std::vector<float> highest_;  // maximum of each column
   std::vector<int> peaks_;      // local maxima of `highest_`
   std::vector<Candidate> candidates_;
+  std::vector<std::vector<Candidate>> of_ranks_;
   std::vector<int> cell_counts_;
   std::vector<int> noise_;  // responses to a mask
   float min_response_ = 0.0F;

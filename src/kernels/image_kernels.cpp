@@ -6,8 +6,6 @@
 
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 
-// The compiler vectorizes plain loops.
-
 void smoothDown(const std::uint8_t* const* rows, int columns, std::int16_t* __restrict sums) {
   for (int x = 0; x < columns; ++x) {
     sums[x] = static_cast<std::int16_t>(rows[0][x] + 4 * (rows[1][x] + rows[3][x]) +

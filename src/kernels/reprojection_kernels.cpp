@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-// The compiler vectorizes the loops over the features of a block.
-
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 namespace {
 
@@ -39,15 +37,12 @@ struct ByDisparity {
   double x, y, s2;
 };
 
-ByDisparity differentiate(const FeatureView& view,
-                          const FeatureBlock& block,
-                          int i,
-                          double ratio2) {
+ByDisparity differentiate(const FeatureView& view, const FeatureBlock& block, int i, double r2) {
   const double* t = view.T + 12;
   const double scale = block.seen.per_z[i] * block.nearer[i] / block.disparity[i];
   const double x = scale * (view.fx * t[0] - block.seen.u[i] * t[2]);
   const double y = scale * (view.fy * t[1] - block.seen.v[i] * t[2]);
-  return {x, y, 1.0 + ratio2 * (x * x + y * y)};
+  return {x, y, 1.0 + r2 * (x * x + y * y)};
 }
 
 /// Derivatives by a rotation, from those by the translation.

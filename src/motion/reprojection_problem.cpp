@@ -115,12 +115,11 @@ ReprojectionProblem::Term ReprojectionProblem::termOf(std::size_t i,
   Term term;
   term.feature = i;
   term.weight = block.weight[lane];
-  term.residual_px = {linear.x[LinearBlock::kResidual][lane],
-                      linear.y[LinearBlock::kResidual][lane]};
-  for (int i = 0; i < 6; ++i) {
-    term.jacobian.col(i) << linear.x[LinearBlock::kMotion + i][lane],
-        linear.y[LinearBlock::kMotion + i][lane];
-  }
+  const auto at = [&](int column) {
+    return Eigen::Vector2d(linear.x[column][lane], linear.y[column][lane]);
+  };
+  term.residual_px = at(LinearBlock::kResidual);
+  for (int i = 0; i < 6; ++i) term.jacobian.col(i) = at(LinearBlock::kMotion + i);
   term.by_disparity = {block.by_x[lane], block.by_y[lane]};
   return term;
 }
@@ -143,8 +142,7 @@ ReprojectionProblem::NormalMatrix ReprojectionProblem::normalMatrix(
       shared.col(cells_[b * kSize + lane]) += of_features.col(static_cast<Eigen::Index>(lane));
     }
   }
-  const NormalMatrix explained = has_shared ? explainedBy(shared, cell_ratio_, smooth_ratio_)
-                                            : NormalMatrix(NormalMatrix::Zero());
+  const NormalMatrix explained = explainedBy(shared, cell_ratio_, smooth_ratio_);
   NormalMatrix normal = NormalMatrix::Zero();
   for (int i = first; i < kColumns; ++i) {
     for (int j = i; j < kColumns; ++j) {
@@ -157,12 +155,12 @@ ReprojectionProblem::NormalMatrix ReprojectionProblem::normalMatrix(
 void ReprojectionProblem::errors(std::vector<double>& errors_px) const {
   errors_px.resize(count_);
   const FeatureView view = viewFrom(T_keyframe_cur_);
+  constexpr int kResidual = LinearBlock::kResidual;
   LinearBlock linear;
   for (std::size_t i = 0; i < count_; ++i) {
-    if (i % kSize == 0)
-      chooseKernels().linearize(view, LinearBlock::kResidual, blocks_[i / kSize], linear);
-    const double x = linear.x[LinearBlock::kResidual][i % kSize];
-    const double y = linear.y[LinearBlock::kResidual][i % kSize];
+    if (i % kSize == 0) chooseKernels().linearize(view, kResidual, blocks_[i / kSize], linear);
+    const double x = linear.x[kResidual][i % kSize];
+    const double y = linear.y[kResidual][i % kSize];
     errors_px[i] = std::sqrt(x * x + y * y);
   }
 }

@@ -27,7 +27,7 @@ bool RigEstimate::setCamera(const StereoCamera& camera) {
   if (first_camera_.differenceTo(camera) < kSameCamera) return true;
   first_camera_ = camera;
   resetBias();
-  rows_.reset();
+  rows_ = {};
   delay_ = {};
   return false;
 }

@@ -58,10 +58,7 @@ void keepMostFrequent(std::vector<float>& values_px) {
 
 }  // namespace
 
-RowComparison::RowComparison() : last_px_(kFeatures) {
-  kept_px_.reserve(kFeatures);
-  distances_px_.reserve(kFeatures);
-}
+RowComparison::RowComparison() : last_px_(kFeatures) {}
 
 void RowComparison::observe(const std::vector<float>& differences_px) {
   if (differences_px.empty()) return;
@@ -105,12 +102,6 @@ void RowComparison::scale(double factor) {
        {&offset_.median_px, &offset_.sigma_px, &offset_.typical_px, &offset_.applied_px}) {
     *px *= factor;
   }
-}
-
-void RowComparison::reset() {
-  offset_ = {};
-  last_px_.clear();
-  kept_px_.clear();
 }
 
 }  // namespace rotrocc

@@ -33,8 +33,6 @@ class RowComparison {
   /// then.
   void searchAgain();
 
-  /// Discards all data, for use with another camera.
-  void reset();
   /// Pixels become so many times as small, as in an enlarged image.
   void scale(double factor);
 

@@ -37,7 +37,7 @@ TEST(RowComparisonTest, ForgetsWhatIsLongAgo) {
   show(4000, 1.0, 0.1, comparison);
   show(1000, -0.5, 0.1, comparison);
   EXPECT_NEAR(comparison.offset().median_px, -0.5, 0.05);
-  comparison.reset();
+  comparison = {};
   EXPECT_EQ(comparison.offset().median_px, 0.0);
   show(100, 0.25, 0.1, comparison);
   EXPECT_NEAR(comparison.offset().median_px, 0.25, 0.1);
@@ -57,7 +57,7 @@ TEST(RowComparisonTest, CorrectsAnOffsetThatIsCertain) {
   show(200, -1.5, 0.2, comparison);
   EXPECT_TRUE(comparison.isKnown());
   EXPECT_EQ(comparison.offset().applied_px, comparison.offset().median_px);
-  comparison.reset();
+  comparison = {};
   EXPECT_FALSE(comparison.isKnown());
   EXPECT_EQ(comparison.offset().applied_px, 0.0);
 }
