@@ -349,7 +349,7 @@ const std::vector<Fault> kFaults = {
      ofPair([](Pair& pair) { std::swap(pair.images[0].data, pair.images[1].data); })},
     {"images that are not rectified", {"not rectified", "rows of left and right differ"}, kLoss,
      ofImage(1, [](Image& image) { image.data.insert(image.data.begin(), 7 * image.step, 0); })},
-    {"black images", {"is it dark"}, kLoss,
+    {"black images", {"is it too small, dark"}, kLoss,
      ofBoth([](Image& image) { image.data.assign(image.data.size(), 0); })},
     {"frozen images", {"frozen"}, kLoss, freeze},
     {"burst", {}, kGap, ofPair([](Pair& pair) { pair.burst = true; })},

@@ -188,13 +188,14 @@ Explanation explainLoss(const std::vector<StereoPair>& pairs,
   };
   const MatchCounter matches = between(left, right);
   if (matches.corners() < kFewCorners || isNoise(left)) {
-    return {"the left image has hardly any corners, its mean gray level is " +
+    return {cv::format("the left image of %dx%d pixels", left.cols, left.rows) +
+            " has hardly any corners, its mean gray level is " +
             toText(cvRound(cv::mean(left)[0])) + " of 255" +
             (range.white() == 255
                  ? ""
                  : ", where 0 is " + toText(range.black) + " and 255 is " + toText(range.white()) +
                        " of the 16-bit image: set significant_bits if that is wrong") +
-            ": is it dark, overexposed or out of focus, or the lens covered?"};
+            ": is it too small, dark, overexposed or out of focus, or the lens covered?"};
   }
   if (cv::norm(left, right, cv::NORM_INF) == 0.0) {
     return {"left and right image are identical: are both topics from the same camera?", true};
