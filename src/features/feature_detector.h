@@ -45,7 +45,7 @@ class FeatureDetector {
   using Config = FeatureDetectorConfig;
 
   /// Smallest distance between two corners, in x or y: windows of the tracker overlap by half. In
-  /// an image that has few places so far apart, it is less, but two corners are no blur of one.
+  /// an image with too few such places, it is less, down to the size of a corner.
   static constexpr int kMaxRadius_px = 5;
   static constexpr int kMinRadius_px = 3;
   /// No corners are closer to the border of the image: windows of the matcher fit in.
