@@ -56,7 +56,7 @@ bool isFirstOfStrongest(const cv::Mat& response, int x, int row, int radius_px, 
 
 void CornerResponse::compute(
     const cv::Mat& image, int first_row, int last_row, int margin, cv::Mat& response) {
-  stride_ = static_cast<std::size_t>(image.cols + kSide + 2 * kMaxShorts);
+  stride_ = static_cast<std::size_t>(image.cols + kSide);
   for (auto* row : {&smooth_, &steps_}) row->resize(stride_);
   for (auto* sums : {&xx_, &xy_, &yy_}) sums->assign(stride_, 0);
   gradients_.assign(static_cast<std::size_t>(2 * kSide) * stride_, 0);

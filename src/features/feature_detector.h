@@ -32,11 +32,10 @@ class CornerResponse {
 
   static constexpr int kSide = ColumnSums::kSide;
 
-  std::size_t stride_ = 0;  // row length of the buffers below: image width plus padding for SIMD
-  std::vector<std::int16_t> smooth_,
-      steps_;                               // one row, smoothed and differentiated vertically
-  std::vector<std::int16_t> gradients_;     // gradients of the last kSide rows (ring)
-  std::vector<std::int32_t> xx_, xy_, yy_;  // products of gradients, summed over those rows
+  std::size_t stride_ = 0;  // row length of the buffers below: image width plus a margin
+  std::vector<std::int16_t> smooth_, steps_;  // one row, smoothed, differentiated vertically
+  std::vector<std::int16_t> gradients_;       // gradients of the last kSide rows (ring)
+  std::vector<std::int32_t> xx_, xy_, yy_;    // products of gradients, summed over those rows
 };
 
 /// Shi-Tomasi corners (Shi and Tomasi, CVPR 1994), distributed over the image by a grid.

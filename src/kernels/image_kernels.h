@@ -39,8 +39,7 @@ void differentiateRow(const std::uint8_t* above,
                       std::int16_t* steps);
 
 /// Computes Sobel gradients from the results of differentiateRow(), which must both start one
-/// column earlier. They replace those in `gradient_x` and `gradient_y`, and in the sums. Like
-/// respondRow(), it reads and writes up to one register beyond `columns`.
+/// column earlier. They replace those in `gradient_x` and `gradient_y`, and in the sums.
 void replaceGradients(const std::int16_t* smooth,
                       const std::int16_t* steps,
                       int columns,

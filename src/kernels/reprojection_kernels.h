@@ -37,8 +37,8 @@ struct FeatureBlock {
 
 /// Both rows of the linearized residuals of a block.
 struct LinearBlock {
-  /// Columns: derivatives by a bias of all disparities, by a rotation applied after that of the
-  /// motion and by the translation, and the residual itself.
+  /// Columns: derivatives by a bias of all disparities, by a rotation that follows the motion's and
+  /// by the translation, and the residual itself.
   static constexpr int kBias = 0;
   static constexpr int kMotion = 1;
   static constexpr int kTranslation = 4;

@@ -305,13 +305,14 @@ void VisualOdometry::Pipeline::useLevel(const StereoPair& pair, const FramePtr& 
 void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& times) {
   keyframe_.frame = frame;
   keyframe_.T_keyframe_last = {};
+  const StereoCamera camera = rig_.correctedCamera();
   {
     const StageTimer timer(times.corners_ms);
-    finder_->findCorners(rig_.correctedCamera(), keyframe_);
+    finder_->findCorners(camera, keyframe_);
   }
   const StageTimer timer(times.disparity_ms);
   rig_.startKeyframe(keyframe_);
-  finder_->findDepths(rig_.correctedCamera(), keyframe_);
+  finder_->findDepths(camera, keyframe_);
 }
 
 VisualOdometry::Pipeline::Expectation VisualOdometry::Pipeline::expectation(
