@@ -130,15 +130,13 @@ int CorrespondenceFinder::find(const StereoCamera& camera,
 }
 
 /// Tracks a point of the keyframe from where the motion predicts it. None if it is behind the
-/// camera. The right position is predicted from the tracked left one and the predicted disparity;
-/// the disparity shows whether it is right, so it is not tracked back.
+/// camera. The right position is predicted from the tracked left one and the predicted disparity.
 std::optional<CorrespondenceFinder::Tracked> CorrespondenceFinder::track(
     const StereoCamera& camera,
     const Keyframe& keyframe,
     const StereoFrame& current,
     const Eigen::Isometry3d& T_cur_keyframe,
     std::size_t i) {
-  constexpr bool kRoundTrip = true;
   const Eigen::Vector3d point = T_cur_keyframe * keyframe.points[i];
   if (point.z() < kMinDepth_m) return std::nullopt;
   const auto scale = static_cast<float>(keyframe.points[i].z() / point.z());
@@ -146,13 +144,13 @@ std::optional<CorrespondenceFinder::Tracked> CorrespondenceFinder::track(
   Tracked cur;
   cur.left = {predicted.x(), predicted.y()};
   const StereoFrame& from = *keyframe.frame;
-  if (!tracker_.track(from.left, current.left, keyframe.left_px[i], scale, kRoundTrip, cur.left)) {
+  if (!tracker_.track(from.left, current.left, keyframe.left_px[i], scale, cur.left)) {
     return std::nullopt;
   }
   cur.right = cur.left + cv::Point2f(-static_cast<float>(camera.disparity(point.z())),
                                      static_cast<float>(keyframe.row_offset_px));
-  const bool found = tracker_.track(
-      from.right, current.right, keyframe.right_px[i], scale, !kRoundTrip, cur.right);
+  const bool found =
+      tracker_.track(from.right, current.right, keyframe.right_px[i], scale, cur.right);
   return found ? std::optional(cur) : std::nullopt;
 }
 

@@ -32,10 +32,8 @@ constexpr int kMaxRadius_px = Window::kMaxSide / 2;
 /// A point within this fraction of the window's radius counts as close to its prediction.
 constexpr double kNear = 0.5;
 
-/// Tolerance of forward-backward tracking, in details of the images, and the step that is small
-/// enough to tell.
-constexpr double kMaxRoundTrip_px = 1.0;
-constexpr double kRoundTripStep_px = 0.3;
+/// Correlation of a window with the place where it is found. Most wrong places have less.
+constexpr double kMinCorrelation = 0.6;
 
 constexpr double kAnywhere_px = std::numeric_limits<double>::infinity();
 
@@ -100,15 +98,14 @@ void TrackingWindow::spread(float scale) {
 }
 
 /// Sets what a change of brightness and contrast does to the least squares for a shift.
-bool TrackingWindow::describeContrast(const GradientSums& sums) {
+bool TrackingWindow::describeContrast(const WindowSums& sums) {
   const double pixels = side_ * side_;
-  const auto mean = static_cast<std::int16_t>(sums.value / (side_ * side_));
-  const ContrastSums contrast = kernels_->takeContrast(mean, window_);
   const cv::Point2d gradients(static_cast<double>(sums.x), static_cast<double>(sums.y));
-  const cv::Point2d products(static_cast<double>(contrast.x), static_cast<double>(contrast.y));
+  const cv::Point2d products(static_cast<double>(sums.contrast_x),
+                             static_cast<double>(sums.contrast_y));
   mean_gradient_ = kOfGradient / pixels * gradients;
-  mean_contrast_ = kOfContrast / pixels * static_cast<double>(contrast.one);
-  contrast_square_ = kOfContrast * kOfContrast * static_cast<double>(contrast.square) -
+  mean_contrast_ = kOfContrast / pixels * static_cast<double>(sums.contrast);
+  contrast_square_ = kOfContrast * kOfContrast * static_cast<double>(sums.contrast_square) -
                      pixels * mean_contrast_ * mean_contrast_;
   if (!(contrast_square_ > kMinVariance)) return false;
   gradient_by_contrast_ =
@@ -119,7 +116,7 @@ bool TrackingWindow::describeContrast(const GradientSums& sums) {
 
 /// Inverts the normal matrix of the least squares for a shift and for a change of brightness and
 /// contrast. The latter two are eliminated: what they explain of the gradients is subtracted.
-bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
+bool TrackingWindow::invertNormalMatrix(const WindowSums& sums) {
   if (!describeContrast(sums)) return false;
   const double pixels = side_ * side_;
   const cv::Point2d& mean = mean_gradient_;
@@ -143,7 +140,7 @@ bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
 
 /// The shift towards the position that matches the window. The contrast there, relative to that of
 /// the window, multiplies the gradients.
-cv::Point2f TrackingWindow::stepFrom(const Patch& patch) const {
+cv::Point2f TrackingWindow::stepFrom(const Patch& patch) {
   const MismatchSums sums = kernels_->compareWindow(patch, window_);
   const double brighter = kOfDifference * static_cast<double>(sums.one);
   const double with_contrast =
@@ -154,20 +151,25 @@ cv::Point2f TrackingWindow::stepFrom(const Patch& patch) const {
   const double square = kOfDifference * kOfDifference * static_cast<double>(sums.square) -
                         brighter * brighter / (side_ * side_);
   const double variance = contrast_square_ + 2.0 * with_contrast + square;
-  mismatch *= std::sqrt(contrast_square_ / std::max(variance, kMinVariance));
+  const double ratio = std::sqrt(contrast_square_ / std::max(variance, kMinVariance));
+  correlation_ = ratio * (1.0 + with_contrast / contrast_square_);
+  mismatch *= ratio;
   const cv::Point2f b(static_cast<float>(mismatch.x), static_cast<float>(mismatch.y));
   return {-inverse_xx_ * b.x - inverse_xy_ * b.y, -inverse_xy_ * b.x - inverse_yy_ * b.y};
 }
 
 bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& center) {
-  const auto min_px2 = static_cast<float>(stop.min_step_px * stop.min_step_px);
   cv::Point2f found = center;
+  double before_px = stop.min_step_px;
   for (int i = 0; i < stop.max_iterations; ++i) {
     if (!contains(image, found)) return false;
     const cv::Point2f step = stepFrom(patchAround(image, found, radius_));
     found += step;
     if (cv::norm(found - center) > stop.max_shift_px) return false;
-    if (step.dot(step) <= min_px2) break;
+    // Steps shrink by about the same factor: the next one would be short.
+    const double step_px = cv::norm(step);
+    if (step_px * step_px <= before_px * stop.min_step_px) break;
+    before_px = step_px;
   }
   if (!contains(image, found)) return false;
   center = found;
@@ -187,8 +189,8 @@ bool FeatureTracker::track(const ImagePyramid& from,
                            const ImagePyramid& to,
                            const cv::Point2f& start,
                            float scale,
-                           bool round_trip,
                            cv::Point2f& end) {
+  if (!contains(to[0], end)) return false;
   cv::Point2f found = end;
   TrackingWindow::Stop near = kStop;
   near.max_shift_px = kNear * detail_px_ * config_.window_radius_px;
@@ -204,20 +206,9 @@ bool FeatureTracker::track(const ImagePyramid& from,
     }
     if (!window_.take(from[0], start, scale) || !window_.find(to[0], kStop, found)) return false;
   }
-  if (round_trip && !returns(from[0], start, scale, to[0], found)) return false;
+  if (window_.correlation() < kMinCorrelation) return false;
   end = found;
   return true;
-}
-
-/// Tracking back starts at the expected result, so one level is enough.
-bool FeatureTracker::returns(const cv::Mat& from,
-                             cv::Point2f start,
-                             float scale,
-                             const cv::Mat& to,
-                             const cv::Point2f& end) {
-  const TrackingWindow::Stop near = {
-      kStop.max_iterations, detail_px_ * kRoundTripStep_px, detail_px_ * kMaxRoundTrip_px};
-  return window_.take(to, end, 1.0F / scale) && window_.find(from, near, start);
 }
 
 bool FeatureTracker::locate(const cv::Mat& from,

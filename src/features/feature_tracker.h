@@ -21,7 +21,7 @@ class TrackingWindow {
  public:
   struct Stop {
     int max_iterations;
-    double min_step_px;   ///< iterations stop at a shorter step
+    double min_step_px;   ///< iterations stop if the next step would be shorter
     double max_shift_px;  ///< the search fails farther from its start
   };
 
@@ -39,12 +39,15 @@ class TrackingWindow {
   /// `center` unchanged, if the search leaves the image or goes too far.
   bool find(const cv::Mat& image, const Stop& stop, cv::Point2f& center);
 
+  /// Correlation coefficient of the window with the last place that was compared, -1 to 1.
+  double correlation() const { return correlation_; }
+
  private:
   Patch patchAround(const cv::Mat& image, const cv::Point2f& center, int radius);
   void spread(float scale);
-  bool describeContrast(const GradientSums& sums);
-  bool invertNormalMatrix(const GradientSums& sums);
-  cv::Point2f stepFrom(const Patch& patch) const;
+  bool describeContrast(const WindowSums& sums);
+  bool invertNormalMatrix(const WindowSums& sums);
+  cv::Point2f stepFrom(const Patch& patch);
 
   const Kernels* kernels_;
   int radius_, side_;
@@ -54,11 +57,12 @@ class TrackingWindow {
   double mean_contrast_ = 0.0;        // [gray levels]
   double contrast_square_ = 0.0;      // sum of squares about the mean
   cv::Point2d gradient_by_contrast_;  // slope of the regression [1 / px]
+  double correlation_ = 0.0;
   float inverse_xx_ = 0.0F, inverse_xy_ = 0.0F, inverse_yy_ = 0.0F;
 };
 
-/// Pyramidal Lucas-Kanade (Bouguet 2001), starting at a predicted position and verified by tracking
-/// back.
+/// Pyramidal Lucas-Kanade (Bouguet 2001), starting at a predicted position and verified by
+/// the correlation of the windows.
 class FeatureTracker {
  public:
   using Config = FeatureTrackerConfig;
@@ -72,27 +76,19 @@ class FeatureTracker {
   /// Tracks the point `start` from one image to another. `scale` is the expected scale change of
   /// its window, above 1 if the point comes nearer. `end` is the prediction and becomes the result.
   /// Returns false, with `end` unchanged, if the point is not found. The smaller images of the
-  /// pyramids are used only for a point that is not close to its prediction. With `round_trip`, the
-  /// point must return to within 1 px when tracked back.
+  /// pyramids are used only for a point that is not close to its prediction.
   bool track(const ImagePyramid& from,
              const ImagePyramid& to,
              const cv::Point2f& start,
              float scale,
-             bool round_trip,
              cv::Point2f& end);
 
   /// Moves `point` to the position in `to` that matches the surroundings of `start` in `from`.
-  /// Start near the result, and at equal scale: only one level is used, without tracking back.
+  /// Start near the result, and at equal scale: only one level is used, whatever the correlation.
   /// Returns false if nothing is found.
   bool locate(const cv::Mat& from, const cv::Mat& to, const cv::Point2f& start, cv::Point2f& point);
 
  private:
-  bool returns(const cv::Mat& from,
-               cv::Point2f start,
-               float scale,
-               const cv::Mat& to,
-               const cv::Point2f& end);
-
   Config config_;
   double detail_px_ = 1.0;
   TrackingWindow window_;

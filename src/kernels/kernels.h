@@ -24,7 +24,6 @@ struct Kernels {
   decltype(&ROTROCC_INSTRUCTIONS::correlateParts) correlateParts;
   decltype(&ROTROCC_INSTRUCTIONS::multiplyWindow) multiplyWindow;
   decltype(&ROTROCC_INSTRUCTIONS::takeWindow) takeWindow;
-  decltype(&ROTROCC_INSTRUCTIONS::takeContrast) takeContrast;
   decltype(&ROTROCC_INSTRUCTIONS::compareWindow) compareWindow;
   decltype(&ROTROCC_INSTRUCTIONS::fitDisparities) fitDisparities;
   decltype(&ROTROCC_INSTRUCTIONS::linearize) linearize;

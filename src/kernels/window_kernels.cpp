@@ -28,24 +28,30 @@ Shorts difference(const std::int16_t* a, const std::int16_t* b) {
 
 }  // namespace
 
-GradientSums takeWindow(const Patch& patch, Window& window) {
+WindowSums takeWindow(const Patch& patch, Window& window) {
   // A gradient times a sampling offset is a value with 16 extra bits.
   constexpr int kUpToValue = 1 + Window::kValueBits - Window::kGradientBits;
   // As wide as a window, and a register to read on.
   constexpr int kSampleStride = Window::kStride + kShorts;
   std::int16_t samples[(Window::kMaxSide + 2) * kSampleStride];
   samplePatch<Window::kValueBits>(patch, window.side + 2, window.side + 2, samples, kSampleStride);
-  GradientSums sums = {};
+  constexpr int kToContrast = Window::kValueBits - Window::kContrastBits;
+  const int middle = window.side / 2 + 1;
+  const Shorts middle_value = vx_setall_s16(samples[middle * kSampleStride + middle]);
+  WindowSums sums = {};
   for (int x = 0; x < window.side; x += kShorts) {
     const Shorts mask = vx_load(window.mask + x);
     const Shorts spread_x = vx_load(window.spread + x);
     const std::int16_t* spread_y = window.spread;
-    Ints minus_value = vx_setzero_s32();
     Ints minus_x = vx_setzero_s32();
     Ints minus_y = vx_setzero_s32();
+    Ints minus_contrast = vx_setzero_s32();
     Ints xx = vx_setzero_s32();
     Ints xy = vx_setzero_s32();
     Ints yy = vx_setzero_s32();
+    Ints contrast_x = vx_setzero_s32();
+    Ints contrast_y = vx_setzero_s32();
+    Ints contrast_square = vx_setzero_s32();
     const std::int16_t* above = samples + x;
     for (int at = x; at < window.side * kStride; at += kStride) {
       const std::int16_t* here = above + kSampleStride;
@@ -61,49 +67,31 @@ GradientSums takeWindow(const Patch& patch, Window& window) {
       const Shorts aside = v_mul_hi(shiftLeft<kUpToValue>(gx), spread_x);
       const Shorts down = v_mul_hi(shiftLeft<kUpToValue>(gy), vx_setall_s16(*spread_y++));
       const Shorts value = vx_load(here + 1) + aside + down;
+      const Shorts contrast = v_shr<kToContrast>(value - middle_value) & mask;
       v_store(window.values + at, value);
       v_store(window.gradient_x + at, gx);
       v_store(window.gradient_y + at, gy);
-      minus_value += v_dotprod(value, mask);
+      v_store(window.contrast + at, contrast);
       minus_x += v_dotprod(gx, mask);
       minus_y += v_dotprod(gy, mask);
+      minus_contrast += v_dotprod(contrast, mask);
       xx += v_dotprod(gx, gx);
       xy += v_dotprod(gx, gy);
       yy += v_dotprod(gy, gy);
+      contrast_x += v_dotprod(contrast, gx);
+      contrast_y += v_dotprod(contrast, gy);
+      contrast_square += v_dotprod(contrast, contrast);
       above = here;
     }
-    sums.value -= sum(minus_value);
     sums.x -= sum(minus_x);
     sums.y -= sum(minus_y);
+    sums.contrast -= sum(minus_contrast);
     sums.xx += sum(xx);
     sums.xy += sum(xy);
     sums.yy += sum(yy);
-  }
-  return sums;
-}
-
-ContrastSums takeContrast(std::int16_t mean, Window& window) {
-  constexpr int kShift = Window::kValueBits - Window::kContrastBits;
-  const Shorts means = vx_setall_s16(mean);
-  ContrastSums sums = {};
-  for (int x = 0; x < window.side; x += kShorts) {
-    const Shorts mask = vx_load(window.mask + x);
-    Ints minus_sum = vx_setzero_s32();
-    Ints square = vx_setzero_s32();
-    Ints sum_x = vx_setzero_s32();
-    Ints sum_y = vx_setzero_s32();
-    for (int at = x; at < window.side * kStride; at += kStride) {
-      const Shorts contrast = v_shr<kShift>(vx_load(window.values + at) - means) & mask;
-      v_store(window.contrast + at, contrast);
-      minus_sum += v_dotprod(contrast, mask);
-      square += v_dotprod(contrast, contrast);
-      sum_x += v_dotprod(contrast, vx_load(window.gradient_x + at));
-      sum_y += v_dotprod(contrast, vx_load(window.gradient_y + at));
-    }
-    sums.one -= sum(minus_sum);
-    sums.square += sum(square);
-    sums.x += sum(sum_x);
-    sums.y += sum(sum_y);
+    sums.contrast_x += sum(contrast_x);
+    sums.contrast_y += sum(contrast_y);
+    sums.contrast_square += sum(contrast_square);
   }
   return sums;
 }

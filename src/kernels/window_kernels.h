@@ -27,23 +27,16 @@ struct Window {
 
   int side;
   Rows values, gradient_x, gradient_y;
-  Rows contrast;                 ///< values less a constant, in units of 1 / 2^kContrastBits
+  Rows contrast;                 ///< values less the middle one, in units of 1 / 2^kContrastBits
   std::int16_t mask[kStride];    ///< for a row: -1 within the side, else 0
   std::int16_t spread[kStride];  ///< sampling offset of each column and row [px / 2^15]
 };
 
-/// Sums of values, of gradients and of the products of gradients over a window.
-struct GradientSums {
-  std::int64_t value;
-  std::int64_t x, y;
+/// Sums of the gradients and of the contrast over a window, and of their products.
+struct WindowSums {
+  std::int64_t x, y, contrast;
   std::int64_t xx, xy, yy;
-};
-
-/// Sums of the contrast of a window, and of its products with itself and the gradients.
-struct ContrastSums {
-  std::int64_t one;
-  std::int64_t square;
-  std::int64_t x, y;
+  std::int64_t contrast_x, contrast_y, contrast_square;
 };
 
 /// Sums of differences, in units of 1 / 2^Window::kValueBits, and of their products with the
@@ -60,11 +53,8 @@ struct MismatchSums {
 
 namespace ROTROCC_INSTRUCTIONS {
 
-/// Fills the window but for its contrast. The patch must include its margin.
-GradientSums takeWindow(const Patch& patch, Window& window);
-
-/// Fills the contrast of the window: its values less `mean`, in their units.
-ContrastSums takeContrast(std::int16_t mean, Window& window);
+/// Fills the window. The patch must include its margin.
+WindowSums takeWindow(const Patch& patch, Window& window);
 
 /// Compares the window with the patch, which has no margin.
 MismatchSums compareWindow(const Patch& patch, const Window& window);
