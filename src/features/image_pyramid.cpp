@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 #include "kernels/kernels.h"
@@ -13,17 +14,27 @@ namespace {
 /// Radius of the kernel.
 constexpr int kReach = 2;
 
-/// Smooths the image vertically at row `y`, times 16, into `sums`, and reflects it on both sides.
-void smoothDown(const Kernels& kernels, const cv::Mat& image, int y, std::int16_t* sums) {
-  const auto inside = [](int i, int count) {
-    return i >= 0 && i < count ? i : cv::borderInterpolate(i, count, cv::BORDER_REFLECT_101);
-  };
-  const uchar* rows[2 * kReach + 1];
-  for (int i = -kReach; i <= kReach; ++i) {
-    rows[i + kReach] = image.ptr<uchar>(inside(y + i, image.rows));
+constexpr int kRows = 2 * kReach + 1;
+
+/// Reflects an index beyond the border.
+int inside(int i, int count) {
+  const int positive = std::abs(i);
+  return positive < count ? positive : std::max(2 * (count - 1) - positive, 0);
+}
+
+/// Smooths every other pixel along row `y`, times 16, into `sums`.
+void smoothAlong(
+    const Kernels& kernels, const cv::Mat& image, int y, int columns, std::int16_t* sums) {
+  const auto* row = image.ptr<uchar>(y);
+  const auto pixel = [&](int x) { return row[inside(x, image.cols)]; };
+  const int last = image.cols / 2 - 1;  // so far from the border
+  const bool is_wide = last > kMaxShorts;
+  if (is_wide) kernels.smoothAlong(row + 2, last - 1, sums + 1);
+  for (int x = 0; x < columns; x = is_wide && x == 0 ? last : x + 1) {
+    const int sides = pixel(2 * x - 1) + pixel(2 * x + 1);
+    sums[x] = static_cast<std::int16_t>(pixel(2 * x - 2) + 4 * sides + 6 * pixel(2 * x) +
+                                        pixel(2 * x + 2));
   }
-  kernels.smoothDown(rows, image.cols, sums);
-  for (const int x : {-2, -1, image.cols, image.cols + 1}) sums[x] = sums[inside(x, image.cols)];
 }
 
 }  // namespace
@@ -45,12 +56,17 @@ void buildPyramid(
 void halve(const cv::Mat& image, cv::Mat& half) {
   half.create((image.rows + 1) / 2, (image.cols + 1) / 2, CV_8UC1);
   const Kernels& kernels = chooseKernels();
-  thread_local std::vector<std::int16_t> buffer;  // buffer for one row
-  buffer.resize(static_cast<std::size_t>(image.cols + 2 * kReach + kMaxShorts));
-  std::int16_t* sums = buffer.data() + kReach;
+  thread_local std::vector<std::int16_t> buffer;  // of kRows rows
+  buffer.resize(static_cast<std::size_t>(kRows * half.cols));
+  const auto smooth = [&](int y) { return buffer.data() + y % kRows * half.cols; };
+  int next = 0;
   for (int y = 0; y < half.rows; ++y) {
-    smoothDown(kernels, image, 2 * y, sums);
-    kernels.smoothAlong(sums, half.cols, half.ptr<uchar>(y));
+    for (; next < std::min(2 * y + kReach + 1, image.rows); ++next) {
+      smoothAlong(kernels, image, next, half.cols, smooth(next));
+    }
+    const std::int16_t* rows[kRows];
+    for (int i = 0; i < kRows; ++i) rows[i] = smooth(inside(2 * y + i - kReach, image.rows));
+    kernels.smoothDown(rows, half.cols, half.ptr<uchar>(y));
   }
 }
 

@@ -6,29 +6,20 @@
 
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 
-void smoothDown(const std::uint8_t* const* rows, int columns, std::int16_t* __restrict sums) {
-  for (int x = 0; x < columns; ++x) {
-    sums[x] = static_cast<std::int16_t>(rows[0][x] + 4 * (rows[1][x] + rows[3][x]) +
-                                        6 * rows[2][x] + rows[4][x]);
-  }
+void smoothAlong(const std::uint8_t* pixels, int columns, std::int16_t* sums) {
+  const auto smooth = [&](int x) {
+    const std::uint8_t* at = pixels + 2 * x;
+    v_store(sums + x, sumPairs<1, 4>(at - 2) + sumPairs<6, 4>(at) + sumPairs<1, 0>(at + 2));
+  };
+  for (int x = 0; x < columns - kShorts; x += kShorts) smooth(x);
+  smooth(columns - kShorts);
 }
 
-void smoothAlong(const std::int16_t* sums, int columns, std::uint8_t* out) {
-  const Shorts first = alternate(1, 4);
-  const Shorts middle = alternate(6, 4);
-  const Shorts last = alternate(1, 0);
-  const Ints rounding = vx_setall_s32(128);
-  const auto smoothPairs = [&](const std::int16_t* at) {
-    return v_shr<8>(v_dotprod(vx_load(at - 2), first) + v_dotprod(vx_load(at), middle) +
-                    v_dotprod(vx_load(at + 2), last) + rounding);
-  };
-  int x = 0;
-  for (; x <= columns - kShorts; x += kShorts, sums += 2 * kShorts) {
-    v_pack_u_store(out + x, v_pack(smoothPairs(sums), smoothPairs(sums + kShorts)));
-  }
-  for (; x < columns; ++x, sums += 2) {
-    const int sum = sums[-2] + 4 * (sums[-1] + sums[1]) + 6 * sums[0] + sums[2];
-    out[x] = static_cast<std::uint8_t>((sum + 128) >> 8);
+void smoothDown(const std::int16_t* const* rows, int columns, std::uint8_t* __restrict out) {
+  for (int x = 0; x < columns; ++x) {
+    const auto sum = static_cast<std::uint16_t>(rows[0][x] + 4 * (rows[1][x] + rows[3][x]) +
+                                                6 * rows[2][x] + rows[4][x] + 128);
+    out[x] = static_cast<std::uint8_t>(sum >> 8);
   }
 }
 

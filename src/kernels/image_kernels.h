@@ -20,12 +20,12 @@ namespace ROTROCC_INSTRUCTIONS {
 
 // For the smaller images of a pyramid.
 
-/// Smooths five rows vertically by (1 4 6 4 1).
-void smoothDown(const std::uint8_t* const* rows, int columns, std::int16_t* sums);
+/// Smooths every other pixel along the row by (1 4 6 4 1). Reads two pixels before the first one
+/// and three after the last one. There must be kMaxShorts columns or more.
+void smoothAlong(const std::uint8_t* pixels, int columns, std::int16_t* sums);
 
-/// Smooths every other value of the result of smoothDown() along the row, by (1 4 6 4 1) / 256 in
-/// total, and rounds. Reads up to two values before the first and after the last one.
-void smoothAlong(const std::int16_t* sums, int columns, std::uint8_t* out);
+/// Smooths five results of smoothAlong() vertically, by (1 4 6 4 1) / 256 in total, and rounds.
+void smoothDown(const std::int16_t* const* rows, int columns, std::uint8_t* out);
 
 // For the corner response and its peaks.
 

@@ -10,8 +10,8 @@ namespace ROTROCC_INSTRUCTIONS {
 static_assert(kShorts <= kMaxShorts);
 
 extern const Kernels kernels;
-const Kernels kernels = {smoothDown,
-                         smoothAlong,
+const Kernels kernels = {smoothAlong,
+                         smoothDown,
                          differentiateRow,
                          replaceGradients,
                          respondRow,

@@ -11,8 +11,8 @@ namespace rotrocc {
 /// all kinds: integer sums are exact, and the order of floating-point sums does not depend on the
 /// register width.
 struct Kernels {
-  decltype(&ROTROCC_INSTRUCTIONS::smoothDown) smoothDown;
   decltype(&ROTROCC_INSTRUCTIONS::smoothAlong) smoothAlong;
+  decltype(&ROTROCC_INSTRUCTIONS::smoothDown) smoothDown;
   decltype(&ROTROCC_INSTRUCTIONS::differentiateRow) differentiateRow;
   decltype(&ROTROCC_INSTRUCTIONS::replaceGradients) replaceGradients;
   decltype(&ROTROCC_INSTRUCTIONS::respondRow) respondRow;

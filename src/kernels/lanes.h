@@ -34,6 +34,20 @@ inline Shorts loadBytes(const std::uint8_t* from) {
   return v_reinterpret_as_s16(cv::vx_load_expand(from));
 }
 
+/// kEven p[0] + kOdd p[1], kEven p[2] + kOdd p[3], ...; processors are little-endian.
+template <int kEven, int kOdd>
+Shorts sumPairs(const std::uint8_t* p) {
+#if CV_AVX2
+  const Shorts factors = vx_setall_s16(kEven + (kOdd << 8));
+  return Shorts(_mm256_maddubs_epi16(vx_load(p).val, factors.val));
+#else
+  const Shorts pairs = v_reinterpret_as_s16(vx_load(p));
+  const Shorts odd = v_reinterpret_as_s16(v_shr<8>(v_reinterpret_as_u16(pairs)));
+  return v_mul_wrap(pairs & vx_setall_s16(255), vx_setall_s16(kEven)) +
+         v_mul_wrap(odd, vx_setall_s16(kOdd));
+#endif
+}
+
 /// a, b, a, b, ...
 inline Shorts alternate(std::int16_t a, std::int16_t b) {
   return v_reinterpret_as_s16(vx_setall_s32(
