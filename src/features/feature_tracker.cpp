@@ -159,17 +159,14 @@ cv::Point2f TrackingWindow::stepFrom(const Patch& patch) {
 }
 
 bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& center) {
+  const auto min_px2 = static_cast<float>(stop.min_step_px * stop.min_step_px);
   cv::Point2f found = center;
-  double before_px = stop.min_step_px;
   for (int i = 0; i < stop.max_iterations; ++i) {
     if (!contains(image, found)) return false;
     const cv::Point2f step = stepFrom(patchAround(image, found, radius_));
     found += step;
     if (cv::norm(found - center) > stop.max_shift_px) return false;
-    // Steps shrink by about the same factor: the next one would be short.
-    const double step_px = cv::norm(step);
-    if (step_px * step_px <= before_px * stop.min_step_px) break;
-    before_px = step_px;
+    if (step.dot(step) <= min_px2) break;
   }
   if (!contains(image, found)) return false;
   center = found;

@@ -21,7 +21,7 @@ class TrackingWindow {
  public:
   struct Stop {
     int max_iterations;
-    double min_step_px;   ///< iterations stop if the next step would be shorter
+    double min_step_px;   ///< iterations stop at a shorter step
     double max_shift_px;  ///< the search fails farther from its start
   };
 
