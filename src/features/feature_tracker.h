@@ -61,8 +61,8 @@ class TrackingWindow {
   float inverse_xx_ = 0.0F, inverse_xy_ = 0.0F, inverse_yy_ = 0.0F;
 };
 
-/// Pyramidal Lucas-Kanade (Bouguet 2001), starting at a predicted position and verified by
-/// the correlation of the windows.
+/// Pyramidal Lucas-Kanade (Bouguet 2001), starting at a predicted position and verified by the
+/// correlation of the windows.
 class FeatureTracker {
  public:
   using Config = FeatureTrackerConfig;
@@ -75,8 +75,9 @@ class FeatureTracker {
 
   /// Tracks the point `start` from one image to another. `scale` is the expected scale change of
   /// its window, above 1 if the point comes nearer. `end` is the prediction and becomes the result.
-  /// Returns false, with `end` unchanged, if the point is not found. The smaller images of the
-  /// pyramids are used only for a point that is not close to its prediction.
+  /// Returns false, with `end` unchanged, if the point is not found or the prediction is outside
+  /// the image. The smaller images of the pyramids are used only for a point that is not close to
+  /// its prediction.
   bool track(const ImagePyramid& from,
              const ImagePyramid& to,
              const cv::Point2f& start,
