@@ -36,8 +36,8 @@ class CorrespondenceFinder {
   /// reused.
   FramePtr makeFrame(const StereoPair& pair, int level = 0);
 
-  /// Finds the corners of the keyframe's left image, more than are wanted: some have no match. The
-  /// camera tells the detail of the image.
+  /// Finds the corners of the keyframe's left image, more than are wanted: some have no match.
+  /// Their distance depends on the camera's detail_px.
   virtual void findCorners(const StereoCamera& camera, Keyframe& keyframe);
   /// Matches the corners in the keyframe's right image, in their order, until max_features have a
   /// depth, and triangulates these. Removes the corners that were not needed.
