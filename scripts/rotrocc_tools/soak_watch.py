@@ -69,9 +69,11 @@ def faults_of(samples):
     # A thread that is there for a moment does not count.
     middle = len(settled) // 2
     before, after = (statistics.median_high(s[2] for s in half) for half in (settled[:middle], settled[middle:]))
-    print(f'memory {settled[-1][1]:.1f} MB, at most {max(s[1] for s in samples):.1f} MB, {slope:+.2f} MB an hour'
-          + ('' if is_long else ' (too short a run to count)') + f'; threads {before:.0f}, then {after:.0f}')
-    return (['memory grows'] if is_long and slope >= MAX_SLOPE_MB_PER_H else []) + (
+    print(f'memory {settled[-1][1]:.1f} MB, at most {max(s[1] for s in samples):.1f} MB, {slope:+.2f} MB an hour; '
+          f'threads {before:.0f}, then {after:.0f}' + ('' if is_long else ' (too short a run to count)'))
+    if not is_long:
+        return []
+    return (['memory grows'] if slope >= MAX_SLOPE_MB_PER_H else []) + (
         ['threads are added'] if after > before else [])
 
 
