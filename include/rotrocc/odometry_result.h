@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -105,8 +107,11 @@ struct OdometryResult {
   /// is only reported. 0: no motion.
   double contrast_gain = 0.0;
   /// How often the images were halved before they were used: pixels of soft images show too little.
-  /// Figures in px are of whole images.
+  /// -1: they were doubled, as windows are too large for so few pixels. Figures in px are of whole
+  /// images.
   int halvings = 0;
+  /// Side of the smallest detail that may be used, in px of whole images.
+  double detail_px() const { return std::exp2(std::max(0, halvings)); }
   double flow_noise_px = 0.0;  ///< standard deviation in x and y, of inliers; 0: no motion
   StageCounts counts;
   StageTimes times;

@@ -50,7 +50,8 @@ struct StereoCamera {
     return {fx * point.x() / point.z() + cx, fy * point.y() / point.z() + cy};
   }
 
-  /// The camera of images that are halved `times` times, keeping every other pixel.
+  /// The camera of images that are halved `times` times, keeping every other pixel. With a negative
+  /// number they are doubled: pixel k becomes pixel 2k.
   StereoCamera halved(int times) const;
 
   /// How far another calibration differs: the largest change of the tangent of a viewing direction,

@@ -61,7 +61,7 @@ class PairChecks {
     ++pairs_;
     const OdometryResult result = odometry_.process(pair, camera);
     with_motion_ += result.hasMotion() ? 1 : 0;
-    camera_.detail_px = std::exp2(result.halvings);
+    camera_.detail_px = result.detail_px();
     ok_ += result.state == State::kOk ? 1 : 0;
     if (result.hasMotion()) applied_px_ = result.disparity_bias.applied_px;
     path_m_ += result.T_prev_cur.translation().norm();
@@ -153,7 +153,7 @@ class PairChecks {
     if (result.keyframe_stamp_ns != keyframe_stamp_ns_) keyframe_at_px_ = at_px_;
     keyframe_stamp_ns_ = result.keyframe_stamp_ns;
     at_px_ = keyframe_at_px_ + flow_px;
-    if (std::abs(at_px_ - taken_at_px_) < std::ldexp(kMoved, result.halvings)) return false;
+    if (std::abs(at_px_ - taken_at_px_) < kMoved * result.detail_px()) return false;
     taken_at_px_ = at_px_;
     return true;
   }

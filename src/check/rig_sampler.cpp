@@ -73,7 +73,7 @@ void RigSampler::observe(const CheckedPair& pair) {
   PairSamples samples = {pair.time_s, result.flow_noise_px, result.disparity_bias.applied_px, {}};
   samples.late_s = result.right_delay.applied_s;
   last_points_.clear();
-  tracker_.setDetail(std::exp2(result.halvings));
+  tracker_.setDetail(result.detail_px());
   const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPerPair);
   for (std::size_t i = 0; i < pair.features.size(); i += step) {
     const Correspondence& feature = pair.features[i];
@@ -128,7 +128,7 @@ void RigSampler::measureRow(const CheckedPair& pair,
   constexpr double kReturn = 0.3;  // over the detail
   cv::Point2f back = left;
   if (!tracker_.locate(pair.images.right, pair.images.left, right, back)) return;
-  if (cv::norm(back - left) > kReturn * std::exp2(pair.result.halvings)) return;
+  if (cv::norm(back - left) > kReturn * pair.result.detail_px()) return;
   sample.left_px = left;
   sample.row_px = right.y - left.y;
 }

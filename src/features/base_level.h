@@ -12,7 +12,9 @@ namespace rotrocc {
 
 /// Chooses the level of the pyramids that is the image of the odometry: pixels that show no more
 /// detail than fewer would, as those of a soft lens, a demosaiced sensor or an enlarged image, cost
-/// time, and make windows and limits in pixels too small.
+/// time, and make windows and limits in pixels too small. Where a sharp image has no room for the
+/// features, windows in its pixels are too large: it is doubled, as by Lowe, "Distinctive Image
+/// Features from Scale-Invariant Keypoints" (2004).
 ///
 /// The sharpness of a level is the mean square of the detail that halving it loses, relative to the
 /// loss of the next halving; both exclude noise. It is 1 for a scene alike at all scales, and does
@@ -35,17 +37,20 @@ class BaseLevel {
   /// Forgets the images, as of another camera.
   void reset() { *this = BaseLevel(config_); }
 
+  /// -1: the doubled image.
   int level() const { return level_; }
 
   /// Side of the smallest detail of the images at the level [px], which windows and limits are
-  /// multiples of: 1, or more if the level is soft and the next one has no room.
-  double detail_px() const;
+  /// multiples of: 1, or more if the level is soft and the next one has no room, or in a doubled
+  /// image if windows of more pixels have room.
+  double detail_px() const { return detail_px_; }
 
  private:
   void observeLevel(const cv::Mat& image, const cv::Mat* smaller);
 
   FeatureDetectorConfig config_;
   int level_ = 0;
+  double detail_px_ = 1.0;
   std::array<int, kMaxLevel + 1> images_ = {};
   std::array<double, kMaxLevel + 1> log_sharpness_ = {};  // averages over the images
   std::array<bool, kMaxLevel + 1> is_soft_ = {}, is_empty_ = {};

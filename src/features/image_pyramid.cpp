@@ -70,4 +70,24 @@ void halve(const cv::Mat& image, cv::Mat& half) {
   }
 }
 
+void enlarge(const cv::Mat& image, cv::Mat& large) {
+  const auto meanOf = [](int a, int b) { return static_cast<uchar>((a + b + 1) / 2); };
+  large.create(2 * image.rows, 2 * image.cols, CV_8UC1);
+  for (int y = 0; y < image.rows; ++y) {
+    const auto* row = image.ptr<uchar>(y);
+    auto* out = large.ptr<uchar>(2 * y);
+    for (int x = 0; x + 1 < image.cols; ++x) {
+      out[2 * x] = row[x];
+      out[2 * x + 1] = meanOf(row[x], row[x + 1]);
+    }
+    out[large.cols - 2] = out[large.cols - 1] = row[image.cols - 1];
+  }
+  for (int y = 1; y < large.rows; y += 2) {
+    const auto* above = large.ptr<uchar>(y - 1);
+    const auto* below = large.ptr<uchar>(std::min(y + 1, large.rows - 2));
+    auto* out = large.ptr<uchar>(y);
+    for (int x = 0; x < large.cols; ++x) out[x] = meanOf(above[x], below[x]);
+  }
+}
+
 }  // namespace rotrocc

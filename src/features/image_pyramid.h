@@ -24,4 +24,8 @@ void buildPyramid(const cv::Mat& image,
 /// reused.
 void halve(const cv::Mat& image, cv::Mat& half);
 
+/// Twice the width and height of `image` (CV_8UC1): pixel k becomes pixel 2k, those in between are
+/// means of their neighbors, the last ones repeat. The memory of `large` is reused.
+void enlarge(const cv::Mat& image, cv::Mat& large);
+
 }  // namespace rotrocc

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,8 +32,8 @@ class FeatureMask {
     cv::dilate(mask, grown_, cv::getStructuringElement(cv::MORPH_RECT, window));
   }
 
-  /// Pixels are those of an image that is halved `level` times.
-  void setLevel(int level) { px_ = static_cast<float>(1 << level); }
+  /// Pixels are those of an image that is halved `level` times; -1: doubled.
+  void setLevel(int level) { px_ = std::ldexp(1.0F, level); }
 
   /// Whether a pixel may not be used. Those outside the image may.
   bool excludes(const cv::Point2f& pixel) const {
@@ -59,6 +61,8 @@ struct StereoFrame {
   std::int64_t clock_set_ns = 0;  ///< see StereoPair
   std::int64_t time_ns() const { return stamp_ns - clock_set_ns; }
   ImagePyramid whole_left, whole_right;  ///< level 0 is a copy of the image, or empty
+  cv::Mat large_left, large_right;       ///< level -1: enlarged images, if is_enlarged
+  bool is_enlarged = false;
   /// Pyramids for the tracker: those parts of the whole ones that begin with the image of the
   /// odometry, see BaseLevel.
   ImagePyramid left, right;
@@ -69,17 +73,22 @@ struct StereoFrame {
   /// motion.
   static constexpr int kLevels = 3;
 
-  /// The first level that there is.
-  int firstLevel() const { return whole_left.front().empty() ? 1 : 0; }
+  bool hasImage() const { return !whole_left.front().empty(); }
 
-  /// Sets the first level of left and right.
+  /// Sets the first level of left and right, which is 1 or more without the images.
   void setLevel(int first) {
-    const auto part = [&](const ImagePyramid& whole, ImagePyramid& pyramid) {
-      const auto end = std::min(whole.size(), static_cast<std::size_t>(first + kLevels));
-      pyramid.assign(whole.begin() + first, whole.begin() + static_cast<std::ptrdiff_t>(end));
+    if (first < 0 && !std::exchange(is_enlarged, true)) {
+      enlarge(whole_left.front(), large_left);
+      enlarge(whole_right.front(), large_right);
+    }
+    const auto part = [&](const cv::Mat& large, const ImagePyramid& whole, ImagePyramid& pyramid) {
+      pyramid.clear();
+      if (first < 0) pyramid.push_back(large);
+      const auto end = std::min(static_cast<int>(whole.size()), std::max(first, 0) + kLevels);
+      pyramid.insert(pyramid.end(), whole.begin() + std::max(first, 0), whole.begin() + end);
     };
-    part(whole_left, left);
-    part(whole_right, right);
+    part(large_left, whole_left, left);
+    part(large_right, whole_right, right);
     left_mask.setLevel(first);
     right_mask.setLevel(first);
   }

@@ -38,11 +38,12 @@ void StereoCamera::check() const {
 
 StereoCamera StereoCamera::halved(int times) const {
   StereoCamera camera = *this;
-  for (int i = 0; i < times; ++i) {
-    camera.width = (camera.width + 1) / 2;
-    camera.height = (camera.height + 1) / 2;
-    for (double* px : {&camera.fx, &camera.fy, &camera.cx, &camera.cy, &camera.cx_right})
-      *px *= 0.5;
+  for (int* size : {&camera.width, &camera.height}) {
+    for (int i = 0; i < times; ++i) *size = (*size + 1) / 2;
+    for (int i = times; i < 0; ++i) *size *= 2;
+  }
+  for (double* px : {&camera.fx, &camera.fy, &camera.cx, &camera.cy, &camera.cx_right}) {
+    *px = std::ldexp(*px, -times);
   }
   return camera;
 }

@@ -45,7 +45,7 @@ MotionSearch::MotionSearch(const OdometryConfig& config)
 bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& found) {
   // A window finds what is as far away as it reaches in the smallest image. Without a prediction,
   // many find something else so far away: they are tracked again from where they belong.
-  const int halvings = start.is_prediction ? StereoFrame::kLevels - 1 : 0;
+  const std::size_t halvings = start.is_prediction ? frames.current.left.size() - 1 : 0;
   const double reach_px = frames.camera.detail_px * window_radius_px_ * (1 << halvings);
   std::optional<Eigen::Isometry3d> prediction;
   if (start.is_prediction) prediction = start.T_keyframe_cur;

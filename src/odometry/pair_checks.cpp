@@ -23,10 +23,9 @@ constexpr double kSameDrive = 30.0;
 /// as a share of the way, where a restart would lose all of the way between them.
 constexpr double kRefinedCamera = 1e-3;
 
-bool isSame(const ImagePyramid& a, const ImagePyramid& b, int level) {
-  const auto i = static_cast<std::size_t>(level);
-  return a.size() == b.size() && a[i].size() == b[i].size() &&
-         std::memcmp(a[i].data, b[i].data, a[i].total()) == 0;
+bool isSame(const ImagePyramid& a, const ImagePyramid& b, std::size_t level) {
+  return a.size() == b.size() && a[level].size() == b[level].size() &&
+         std::memcmp(a[level].data, b[level].data, a[level].total()) == 0;
 }
 
 }  // namespace
@@ -84,7 +83,7 @@ std::optional<std::string> whyRepeated(const StereoPair& pair,
                                        const StereoFrame& current,
                                        const StereoFrame& newest,
                                        const std::function<bool()>& may_repeat) {
-  const int level = std::max(current.firstLevel(), newest.firstLevel());
+  const std::size_t level = current.hasImage() && newest.hasImage() ? 0 : 1;
   const auto isRepeated = [&](const ImagePyramid StereoFrame::*side, const cv::Mat& image) {
     return isSame(current.*side, newest.*side, level) && !isNoise(image);
   };

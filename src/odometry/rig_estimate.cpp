@@ -54,7 +54,7 @@ StereoCamera RigEstimate::correctedCamera() const {
 }
 
 DisparityBias RigEstimate::bias() const {
-  DisparityBias bias = filter_.bias(camera_.fx / (1 << level_));
+  DisparityBias bias = filter_.bias(std::ldexp(camera_.fx, -level_));
   bias.estimated_px += knownBias();
   bias.applied_px += knownBias();
   return bias;
@@ -78,7 +78,10 @@ double RigEstimate::correctedDelay() const {
 
 void RigEstimate::startKeyframe(Keyframe& keyframe) {
   past_ = filter_;
-  if (!rows_.isKnown()) rows_.observe(row_search_.search(correctedCamera(), keyframe));
+  if (!rows_.isKnown()) {
+    const int max_rows = (level_ < 0 ? 2 : 1) * RowSearch::kMaxRows;
+    rows_.observe(row_search_.search(correctedCamera(), keyframe, max_rows));
+  }
   keyframe.row_offset_px = correctedRows();
   keyframe.right_delay_s = correctedDelay();
 }
@@ -131,7 +134,7 @@ void RigEstimate::report(OdometryResult& result) const {
                      &result.row_offset.sigma_px,
                      &result.row_offset.typical_px,
                      &result.row_offset.applied_px}) {
-    *px *= 1 << level_;
+    *px = std::ldexp(*px, level_);
   }
 }
 

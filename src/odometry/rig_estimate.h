@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "features/row_search.h"
@@ -30,8 +31,8 @@ class RigEstimate {
   /// began with. Returns whether they are kept.
   bool setCamera(const StereoCamera& camera);
 
-  /// From now on pixels are those of images that are halved `level` times, and show details of
-  /// `detail_px`. The estimates are kept.
+  /// From now on pixels are those of images that are halved `level` times (-1: doubled), and show
+  /// details of `detail_px`. The estimates are kept.
   void setLevel(int level, double detail_px);
 
   /// The camera as it was passed.
@@ -70,7 +71,7 @@ class RigEstimate {
   void report(OdometryResult& result) const;
 
  private:
-  double knownBias() const { return config_.bias_px / (1 << level_); }
+  double knownBias() const { return std::ldexp(config_.bias_px, -level_); }
   double correctedRows() const;
   double correctedDelay() const;
   void resetBias();

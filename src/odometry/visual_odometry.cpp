@@ -173,7 +173,7 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
 
 /// Stores what was found, in pixels of whole images.
 void VisualOdometry::Pipeline::report(const StereoCamera& camera, OdometryResult& result) {
-  const double px = 1 << level_;
+  const double px = std::exp2(level_);
   result.halvings = level_;
   result.counts = found_.counts;
   rig_.report(result);
@@ -292,7 +292,7 @@ void VisualOdometry::Pipeline::useLevel(const StereoPair& pair, const FramePtr& 
   if (!config_.isPaper()) base_.observe(pair.left, current->whole_left);
   int level = base_.level();
   for (const FramePtr& frame : {current, last_, lost_}) {
-    if (frame) level = std::max(level, frame->firstLevel());
+    if (frame && !frame->hasImage()) level = std::max(level, 1);
   }
   if (level != level_) keyframe_.frame.reset();
   level_ = level;

@@ -66,12 +66,30 @@ TEST(BaseLevelTest, HalvesSharpImagesOnRequestWhereWindowsFit) {
 }
 
 TEST(BaseLevelTest, WithoutRoomWindowsGrowWithTheImage) {
-  for (const double factor : {1.0, 1.25, 1.5, 2.0}) {
-    BaseLevel base({kManyFeatures});
-    observe(enlarged(sharpImage({320, 256}), factor), 1.0, base);
+  for (const double factor : {1.25, 1.5, 2.0}) {
+    const cv::Mat image = enlarged(sharpImage({320, 256}), factor);
+    BaseLevel base({static_cast<int>(image.total()) / 180});  // of two windows
+    observe(image, 1.0, base);
     EXPECT_EQ(base.level(), 0) << factor;
     EXPECT_NEAR(base.detail_px() / factor, 1.0, 0.25);  // that is a pixel of the window's radius
   }
+}
+
+TEST(BaseLevelTest, DoublesImagesWithoutRoomAndSoftOnesWhereWindowsDoNotFit) {
+  constexpr int kFeaturesWithRoom = 200;
+  constexpr int kFeaturesThatFit = 700;
+  const cv::Mat sharp = sharpImage({320, 256});
+  const cv::Mat soft = enlarged(sharpImage({160, 128}), 2.0);
+  const auto levelOf = [](const cv::Mat& image, const FeatureDetectorConfig& config) {
+    BaseLevel base(config);
+    observe(image, 1.0, base);
+    return base.level();
+  };
+  EXPECT_EQ(levelOf(sharp, {kFeaturesWithRoom}), 0);
+  EXPECT_EQ(levelOf(sharp, {kFeaturesThatFit}), -1);
+  EXPECT_EQ(levelOf(soft, {kFeaturesThatFit}), 0);
+  EXPECT_EQ(levelOf(soft, {kManyFeatures}), -1);
+  EXPECT_EQ(levelOf(sharp, {kFeaturesThatFit, 1}), 0) << "halving was asked for";
 }
 
 TEST(BaseLevelTest, OneBlurredImageAmongSharpOnesChangesNothing) {
@@ -86,12 +104,12 @@ TEST(BaseLevelTest, OneBlurredImageAmongSharpOnesChangesNothing) {
   EXPECT_GT(base.level(), 0);
 }
 
-TEST(BaseLevelTest, BlackAndTinyImagesAreUsedAsTheyAre) {
+TEST(BaseLevelTest, BlackAndTinyImagesHaveALevel) {
   BaseLevel base({kFewFeatures});
   observe(cv::Mat::zeros(200, 300, CV_8UC1), 0.0, base);
   EXPECT_EQ(base.level(), 0);
   observe(cv::Mat::zeros(8, 8, CV_8UC1), 0.0, base);
-  EXPECT_EQ(base.level(), 0);
+  EXPECT_EQ(base.level(), -1);
 }
 
 }  // namespace

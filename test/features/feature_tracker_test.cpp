@@ -188,5 +188,23 @@ TEST(HalfImageTest, IsThatOfOpenCvForAnySize) {
   }
 }
 
+TEST(EnlargedImageTest, IsInterpolatedAtHalfPixels) {
+  cv::RNG generator(1);
+  for (int width = 1; width < 40; ++width) {
+    for (const int height : {1, 2, 7}) {
+      cv::Mat image(height, width, CV_8UC1);
+      generator.fill(image, cv::RNG::UNIFORM, 0, 256);
+      const cv::Matx23d doubling(2.0, 0.0, 0.0, 0.0, 2.0, 0.0);
+      cv::Mat expected, large;
+      cv::warpAffine(
+          image, expected, doubling, image.size() * 2, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+      enlarge(image, large);
+      ASSERT_EQ(large.size(), image.size() * 2);
+      EXPECT_LE(cv::norm(large, expected, cv::NORM_INF), 1.0) << image.size();  // rounding
+      for (int x = 0; x < width; ++x) EXPECT_EQ(large.at<uchar>(0, 2 * x), image.at<uchar>(0, x));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rotrocc

@@ -185,10 +185,10 @@ std::string otherSize() {
 
 std::string newResolution() {
   const auto rig = drivingRig();
-  const auto crop = both([](Image& image) { cropTo(image, 400, 150); });
+  const auto crop = both([](Image& image) { cropTo(image, 560, 178); });
   rig->sendInfos(both([](Info& info) {
-    info.width = 400;
-    info.height = 150;
+    info.width = 560;
+    info.height = 178;
   }));
   rig->drive(crop);
   const std::string observed = rig->observed();

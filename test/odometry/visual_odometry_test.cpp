@@ -357,14 +357,14 @@ TEST(VisualOdometryTest, GoesOnWithOtherParameters) {
   EXPECT_NEAR(after.disparity_bias.applied_px, before.disparity_bias.applied_px, 0.05);
 }
 
-StereoPair enlarged(StereoPair pair, double factor) {
+StereoPair resized(StereoPair pair, double factor) {
   for (cv::Mat* image : {&pair.left, &pair.right}) {
-    cv::resize(*image, *image, {}, factor, factor, cv::INTER_CUBIC);
+    cv::resize(*image, *image, {}, factor, factor, factor < 1.0 ? cv::INTER_AREA : cv::INTER_CUBIC);
   }
   return pair;
 }
 
-StereoCamera enlarged(StereoCamera camera, double factor) {
+StereoCamera resized(StereoCamera camera, double factor) {
   camera.width = cvRound(factor * camera.width);
   camera.height = cvRound(factor * camera.height);
   for (double* px : {&camera.fx, &camera.fy}) *px *= factor;
@@ -379,7 +379,7 @@ TEST(VisualOdometryTest, EnlargedImagesAreUsedAtTheirOwnSize) {
   config.correspondence_finder.feature_detector.max_features = 300;  // the halved ones have room
   VisualOdometry odometry(config);
   for (int i = 0; i < 4; ++i) {
-    const OdometryResult result = odometry.process(enlarged(bend(i), 2.0), enlarged(camera(), 2.0));
+    const OdometryResult result = odometry.process(resized(bend(i), 2.0), resized(camera(), 2.0));
     EXPECT_EQ(result.halvings, 1);
     if (i == 0) continue;
     ASSERT_EQ(result.state, State::kOk) << result.reason;
@@ -393,6 +393,29 @@ TEST(VisualOdometryTest, EnlargedImagesAreUsedAtTheirOwnSize) {
   }
 }
 
+TEST(VisualOdometryTest, SmallImagesAreDoubled) {
+  constexpr double kFactor = 0.25;
+  const StereoCamera small = resized(camera(), kFactor);
+  VisualOdometry odometry({});
+  for (int i = 0; i < 8; ++i) {
+    StereoPair pair = resized(bend(i), kFactor);
+    pair.left_mask = cv::Mat(pair.left.size(), CV_8UC1, cv::Scalar(0));
+    pair.left_mask.rowRange(0, small.height / 4).setTo(255);
+    const OdometryResult result = odometry.process(pair, small);
+    EXPECT_EQ(result.halvings, -1);
+    if (i == 0) continue;
+    expectMotion(result, bendStep(), 0.02, 2e-3);  // 155 x 47 pixels
+    double most_px = 0.0, least_px = small.height;
+    for (const Correspondence& feature : odometry.correspondences()) {
+      most_px = std::max(most_px, feature.cur_px.x());
+      least_px = std::min(least_px, feature.cur_px.y());
+    }
+    EXPECT_LT(most_px, small.width) << "in pixels of the whole image";
+    EXPECT_GT(most_px, small.width / 2);
+    EXPECT_GT(least_px, small.height / 4);
+  }
+}
+
 TEST(VisualOdometryTest, CorrectsAsManyRowsOfTheDetail) {
   constexpr double kFactor = 1.5;
   VisualOdometry::Config config;
@@ -400,8 +423,8 @@ TEST(VisualOdometryTest, CorrectsAsManyRowsOfTheDetail) {
   for (const double rows : {-3.0, 3.0}) {
     VisualOdometry odometry(config);
     for (int i = 0; i < 8; ++i) {
-      const OdometryResult result = odometry.process(enlarged(bendWithRightLower(i, rows), kFactor),
-                                                     enlarged(camera(), kFactor));
+      const OdometryResult result = odometry.process(resized(bendWithRightLower(i, rows), kFactor),
+                                                     resized(camera(), kFactor));
       EXPECT_EQ(result.halvings, 0);
       if (i < 4) continue;  // see CorrectsTheRowsOfARig
       EXPECT_NEAR(result.row_offset.applied_px, kFactor * rows, 0.2 * kFactor);

@@ -21,6 +21,14 @@ constexpr int kFewCorners = 50;
 constexpr double kFewShare = 0.2;  // of corners that match beyond chance, or agree on a motion
 constexpr double kClearlyMore = 2.0;
 
+/// An image as the odometry sees it, see OdometryResult::halvings.
+cv::Mat usedImage(const cv::Mat& image, int halvings) {
+  cv::Mat used = image;
+  if (halvings < 0) enlarge(image, used);
+  for (int i = 0; i < halvings; ++i) halve(cv::Mat(used), used);
+  return used;
+}
+
 /// Counts the corners of the left image that have a disparity, in the images as the odometry sees
 /// them: in soft ones that are not halved, half of the corners match by chance.
 class MatchCounter {
@@ -32,15 +40,15 @@ class MatchCounter {
                const OdometryResult& result)
       : matcher_(config.stereo_matcher),
         camera_(camera.halved(result.halvings)),
+        left_(usedImage(left, result.halvings)),
+        right_(usedImage(right, result.halvings)),
         corrected_px_(std::ldexp(result.row_offset.applied_px, -result.halvings)) {
-    buildPyramid(left, result.halvings + 1, 0, left_);
-    buildPyramid(right, result.halvings + 1, 0, right_);
-    FeatureDetector(config.feature_detector).detect(left_.back(), corners_);
+    FeatureDetector(config.feature_detector).detect(left_, corners_);
   }
 
   /// In right rows that are `lower_px` lower than the odometry expects.
   int count(int lower_px = 0) const {
-    const RectifiedImages images = {left_.back(), right_.back(), camera_, corrected_px_ + lower_px};
+    const RectifiedImages images = {left_, right_, camera_, corrected_px_ + lower_px};
     return static_cast<int>(
         std::count_if(corners_.begin(), corners_.end(), [&](const cv::Point2f& corner) {
           return matcher_.match(images, corner).has_value();
@@ -48,12 +56,12 @@ class MatchCounter {
   }
 
   int corners() const { return static_cast<int>(corners_.size()); }
-  int rows() const { return left_.back().rows; }
+  int rows() const { return left_.rows; }
 
  private:
   StereoMatcher matcher_;
-  ImagePyramid left_, right_;
   StereoCamera camera_;
+  cv::Mat left_, right_;
   double corrected_px_;
   std::vector<cv::Point2f> corners_;
 };

@@ -143,7 +143,7 @@ OdometryStatus toStatus(const HealthReport& report) {
   message.right_delay_sigma_s = static_cast<float>(result.right_delay.sigma_s);
   message.right_delay_applied_s = static_cast<float>(result.right_delay.applied_s);
   message.contrast_gain = static_cast<float>(result.contrast_gain);
-  message.halvings = static_cast<std::uint8_t>(result.halvings);
+  message.halvings = static_cast<std::int8_t>(result.halvings);
   message.flow_noise_px = static_cast<float>(result.flow_noise_px);
   message.pyramids_ms = static_cast<float>(result.times.pyramids_ms);
   message.corners_ms = static_cast<float>(result.times.corners_ms);
