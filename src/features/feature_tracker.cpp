@@ -61,24 +61,29 @@ TrackingWindow::TrackingWindow(int radius_px)
   std::fill_n(window_.mask, side_, std::int16_t{-1});
 }
 
-/// The patch for a window of the given radius. Pixels outside the image repeat its border.
+/// The patch for a window of the given radius. Pixels outside the image repeat its border. What
+/// registers read beyond a row is that of the next one, or anything.
 Patch TrackingWindow::patchAround(const cv::Mat& image, const cv::Point2f& center, int radius) {
-  const cv::Point first(cvFloor(center.x) - radius, cvFloor(center.y) - radius);
+  const int first_x = cvFloor(center.x) - radius;
+  const int first_y = cvFloor(center.y) - radius;
   const int side = 2 * radius + 2;
-  const int step = columnsOf(side - 1) + 1;
-  if (first.x >= 0 && first.y >= 0 && first.x + step <= image.cols &&
-      first.y + side <= image.rows) {
-    return patchAt(image, center, radius);
+  const cv::Rect inside(0, 0, image.cols - side + 1, image.rows - side);
+  std::ptrdiff_t step = columnsOf(side - 1) + 1;
+  const uchar* pixels = border_.data();
+  if (inside.contains({first_x, first_y})) {
+    step = static_cast<std::ptrdiff_t>(image.step[0]);
+    pixels = image.data + first_y * step + first_x;
+  } else {
+    for (int y = 0; y < side; ++y) {
+      const auto* row = image.ptr<uchar>(std::clamp(first_y + y, 0, image.rows - 1));
+      uchar* to = border_.data() + y * step;
+      for (int x = 0; x < side; ++x) to[x] = row[std::clamp(first_x + x, 0, image.cols - 1)];
+    }
   }
-  for (int y = 0; y < side; ++y) {
-    const auto* row = image.ptr<uchar>(std::clamp(first.y + y, 0, image.rows - 1));
-    uchar* to = border_.data() + y * step;
-    for (int x = 0; x < side; ++x) to[x] = row[std::clamp(first.x + x, 0, image.cols - 1)];
-  }
-  return {border_.data(),
+  return {pixels,
           step,
-          fractionOf(center.x - static_cast<float>(first.x + radius)),
-          fractionOf(center.y - static_cast<float>(first.y + radius))};
+          fractionOf(center.x - static_cast<float>(first_x + radius)),
+          fractionOf(center.y - static_cast<float>(first_y + radius))};
 }
 
 bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float scale) {

@@ -22,19 +22,16 @@ int inside(int i, int count) {
   return positive < count ? positive : std::max(2 * (count - 1) - positive, 0);
 }
 
-/// Smooths every other pixel along row `y`, times 16, into `sums`.
-void smoothAlong(
-    const Kernels& kernels, const cv::Mat& image, int y, int columns, std::int16_t* sums) {
+/// Smooths every other pixel along row `y`, times 16, into `sums`, which has room for kMaxShorts.
+/// `line` has room for the row and what is read beyond its ends.
+void smoothAlong(const cv::Mat& image, int y, int columns, uchar* line, std::int16_t* sums) {
   const auto* row = image.ptr<uchar>(y);
-  const auto pixel = [&](int x) { return row[inside(x, image.cols)]; };
-  const int last = image.cols / 2 - 1;  // so far from the border
-  const bool is_wide = last > kMaxShorts;
-  if (is_wide) kernels.smoothAlong(row + 2, last - 1, sums + 1);
-  for (int x = 0; x < columns; x = is_wide && x == 0 ? last : x + 1) {
-    const int sides = pixel(2 * x - 1) + pixel(2 * x + 1);
-    sums[x] = static_cast<std::int16_t>(pixel(2 * x - 2) + 4 * sides + 6 * pixel(2 * x) +
-                                        pixel(2 * x + 2));
+  std::copy_n(row, image.cols, line + kReach);
+  for (int i = 1; i <= kReach; ++i) {
+    line[kReach - i] = row[inside(-i, image.cols)];
+    line[kReach + image.cols - 1 + i] = row[inside(image.cols - 1 + i, image.cols)];
   }
+  chooseKernels().smoothAlong(line + kReach, std::max(columns, kMaxShorts), sums);
 }
 
 }  // namespace
@@ -55,18 +52,20 @@ void buildPyramid(
 
 void halve(const cv::Mat& image, cv::Mat& half) {
   half.create((image.rows + 1) / 2, (image.cols + 1) / 2, CV_8UC1);
-  const Kernels& kernels = chooseKernels();
+  const int stride = half.cols + kMaxShorts;
   thread_local std::vector<std::int16_t> buffer;  // of kRows rows
-  buffer.resize(static_cast<std::size_t>(kRows * half.cols));
-  const auto smooth = [&](int y) { return buffer.data() + y % kRows * half.cols; };
+  thread_local std::vector<uchar> line;
+  buffer.resize(static_cast<std::size_t>(kRows * stride));
+  line.resize(static_cast<std::size_t>(2 * stride + 2 * kReach));
+  const auto smooth = [&](int y) { return buffer.data() + y % kRows * stride; };
   int next = 0;
   for (int y = 0; y < half.rows; ++y) {
     for (; next < std::min(2 * y + kReach + 1, image.rows); ++next) {
-      smoothAlong(kernels, image, next, half.cols, smooth(next));
+      smoothAlong(image, next, half.cols, line.data(), smooth(next));
     }
     const std::int16_t* rows[kRows];
     for (int i = 0; i < kRows; ++i) rows[i] = smooth(inside(2 * y + i - kReach, image.rows));
-    kernels.smoothDown(rows, half.cols, half.ptr<uchar>(y));
+    chooseKernels().smoothDown(rows, half.cols, half.ptr<uchar>(y));
   }
 }
 
@@ -75,18 +74,16 @@ void enlarge(const cv::Mat& image, cv::Mat& large) {
   large.create(2 * image.rows, 2 * image.cols, CV_8UC1);
   for (int y = 0; y < image.rows; ++y) {
     const auto* row = image.ptr<uchar>(y);
+    const auto* next = image.ptr<uchar>(std::min(y + 1, image.rows - 1));
     auto* out = large.ptr<uchar>(2 * y);
-    for (int x = 0; x + 1 < image.cols; ++x) {
+    auto* below = large.ptr<uchar>(2 * y + 1);
+    for (int x = 0; x < image.cols; ++x) {
+      const int right = std::min(x + 1, image.cols - 1);
       out[2 * x] = row[x];
-      out[2 * x + 1] = meanOf(row[x], row[x + 1]);
+      out[2 * x + 1] = meanOf(row[x], row[right]);
+      below[2 * x] = meanOf(row[x], next[x]);
+      below[2 * x + 1] = meanOf(out[2 * x + 1], meanOf(next[x], next[right]));
     }
-    out[large.cols - 2] = out[large.cols - 1] = row[image.cols - 1];
-  }
-  for (int y = 1; y < large.rows; y += 2) {
-    const auto* above = large.ptr<uchar>(y - 1);
-    const auto* below = large.ptr<uchar>(std::min(y + 1, large.rows - 2));
-    auto* out = large.ptr<uchar>(y);
-    for (int x = 0; x < large.cols; ++x) out[x] = meanOf(above[x], below[x]);
   }
 }
 
