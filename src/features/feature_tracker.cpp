@@ -29,6 +29,9 @@ bool contains(const cv::Mat& image, const cv::Point2f& point) {
 
 constexpr int kMaxRadius_px = Window::kMaxSide / 2;
 
+/// Offsets of less than a pixel are added in first order.
+constexpr float kMaxSpread_px = 0.9F;
+
 /// A point within this fraction of the window's radius counts as close to its prediction.
 constexpr double kNear = 0.5;
 
@@ -86,17 +89,50 @@ Patch TrackingWindow::patchAround(const cv::Mat& image, const cv::Point2f& cente
           fractionOf(center.y - static_cast<float>(first_y + radius))};
 }
 
+/// The patch enlarged by `scale`, interpolated at whole pixels of the window.
+Patch TrackingWindow::resample(const cv::Mat& image,
+                               const cv::Point2f& center,
+                               int radius,
+                               float scale) {
+  const int side = 2 * radius + 2;
+  const int step = columnsOf(side - 1) + 1;
+  const auto pixelOf = [&](float at, int i, int count) {
+    const float last = static_cast<float>(count - 1);
+    return std::clamp(at + static_cast<float>(i - radius) / scale, 0.0F, last);
+  };
+  for (int y = 0; y < side; ++y) {
+    const float row = pixelOf(center.y, y, image.rows);
+    const auto* upper = image.ptr<uchar>(static_cast<int>(row));
+    const auto* lower = image.ptr<uchar>(std::min(static_cast<int>(row) + 1, image.rows - 1));
+    const float down = row - std::floor(row);
+    for (int x = 0; x < side; ++x) {
+      const float column = pixelOf(center.x, x, image.cols);
+      const int left = static_cast<int>(column);
+      const int right = std::min(left + 1, image.cols - 1);
+      const float aside = column - std::floor(column);
+      const float above = static_cast<float>(upper[left]) * (1.0F - aside) +
+                          static_cast<float>(upper[right]) * aside;
+      const float below = static_cast<float>(lower[left]) * (1.0F - aside) +
+                          static_cast<float>(lower[right]) * aside;
+      border_[static_cast<std::size_t>(y * step + x)] =
+          static_cast<uchar>(above + down * (below - above) + 0.5F);
+    }
+  }
+  return {border_.data(), step, 0, 0};
+}
+
 bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float scale) {
   if (!contains(image, center)) return false;
-  spread(scale);
-  const Patch patch = patchAround(image, center, radius_ + 1);
+  const float per_px = 1.0F / scale - 1.0F;
+  const bool is_similar = std::abs(per_px) * static_cast<float>(radius_) < kMaxSpread_px;
+  spread(is_similar ? per_px : 0.0F);
+  const Patch patch = is_similar ? patchAround(image, center, radius_ + 1)
+                                 : resample(image, center, radius_ + 1, scale);
   return invertNormalMatrix(kernels_->takeWindow(patch, window_));
 }
 
-/// Sets the sampling offsets from the pixel grid. They must be less than one pixel.
-void TrackingWindow::spread(float scale) {
-  const float most = 0.9F / static_cast<float>(std::max(radius_, 1));
-  const float per_px = std::clamp(1.0F / scale - 1.0F, -most, most);
+/// Sets the sampling offsets from the pixel grid, which grow by `per_px` with each pixel.
+void TrackingWindow::spread(float per_px) {
   for (int i = 0; i < side_; ++i) {
     window_.spread[i] = fractionOf(per_px * static_cast<float>(i - radius_));
   }

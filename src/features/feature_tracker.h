@@ -44,7 +44,8 @@ class TrackingWindow {
 
  private:
   Patch patchAround(const cv::Mat& image, const cv::Point2f& center, int radius);
-  void spread(float scale);
+  Patch resample(const cv::Mat& image, const cv::Point2f& center, int radius, float scale);
+  void spread(float per_px);
   bool describeContrast(const WindowSums& sums);
   bool invertNormalMatrix(const WindowSums& sums);
   cv::Point2f stepFrom(const Patch& patch);
