@@ -11,8 +11,14 @@
 namespace rotrocc {
 namespace {
 
-/// Number of features: a third of them, matched rightly, is still plenty for RANSAC.
-constexpr int kFeatures = 600;
+/// Features of an image: one for so many pixels, up to a number. Where depths change by half, a
+/// tenth of them is matched rightly.
+constexpr int kPixels = 200;
+constexpr int kMaxFeatures = 1500;
+
+/// Matches that are used, those with the most similar descriptors. Nearly half of them are right
+/// where a tenth of all are.
+constexpr std::size_t kMatches = 70;
 
 /// Scales of the descriptors, in steps of a quarter: depths that change by a factor of two.
 constexpr float kScaleStep = 1.25F;
@@ -32,7 +38,8 @@ struct Described {
 Described describe(const cv::Mat& image, const FeatureMask& mask) {
   std::vector<int> responses;
   const double sigma = std::sqrt(noiseVariance(image, responses));
-  const auto orb = cv::ORB::create(kFeatures, kScaleStep, kScales);
+  const int count = std::min(static_cast<int>(image.total()) / kPixels, kMaxFeatures);
+  const auto orb = cv::ORB::create(count, kScaleStep, kScales);
   orb->setFastThreshold(std::max(1, cvRound(kFastOverNoise * sigma)));
   Described described;
   orb->detectAndCompute(
@@ -53,10 +60,12 @@ Correspondences matchDescriptors(const StereoCamera& camera,
   std::vector<cv::DMatch> matches;
   cv::BFMatcher(cv::NORM_HAMMING, kEachOthersNearest)
       .match(in_earlier.descriptors, in_current.descriptors, matches);
+  std::stable_sort(matches.begin(), matches.end());  // by the distance
   const RectifiedImages images = {
       current.left.front(), current.right.front(), camera, keyframe.row_offset_px};
   Correspondences features;
   for (const cv::DMatch& match : matches) {
+    if (features.size() == kMatches) break;
     const auto& earlier = in_earlier.keypoints[static_cast<std::size_t>(match.queryIdx)].pt;
     const auto& cur = in_current.keypoints[static_cast<std::size_t>(match.trainIdx)].pt;
     const cv::Point2f pixel(std::round(cur.x), std::round(cur.y));  // depths are at whole pixels
