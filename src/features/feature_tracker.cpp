@@ -29,8 +29,8 @@ bool contains(const cv::Mat& image, const cv::Point2f& point) {
 
 constexpr int kMaxRadius_px = Window::kMaxSide / 2;
 
-/// Offsets of less than a pixel are added in first order.
-constexpr float kMaxSpread_px = 0.9F;
+/// A window whose border moves by less with the scale is taken as it is.
+constexpr float kMinStretch_px = 0.3F;
 
 /// A point within this fraction of the window's radius counts as close to its prediction.
 constexpr double kNear = 0.5;
@@ -58,84 +58,54 @@ TrackingWindow::TrackingWindow(int radius_px)
     : kernels_(&chooseKernels()),
       radius_(radius_px),
       side_(2 * radius_px + 1),
-      border_(static_cast<std::size_t>((side_ + 3) * (columnsOf(side_ + 2) + 1))) {
+      resampled_(static_cast<std::size_t>((side_ + 3) * (columnsOf(side_ + 2) + 1))) {
   CV_Assert(side_ <= Window::kMaxSide);
   window_.side = side_;
   std::fill_n(window_.mask, side_, std::int16_t{-1});
 }
 
-/// The patch for a window of the given radius. Pixels outside the image repeat its border. What
-/// registers read beyond a row is that of the next one, or anything.
-Patch TrackingWindow::patchAround(const cv::Mat& image, const cv::Point2f& center, int radius) {
-  const int first_x = cvFloor(center.x) - radius;
-  const int first_y = cvFloor(center.y) - radius;
+/// The patch for a window of the given radius, of the image enlarged by `scale`. Pixels outside the
+/// image repeat its border.
+Patch TrackingWindow::patchAround(const cv::Mat& image,
+                                  const cv::Point2f& center,
+                                  int radius,
+                                  float scale) {
   const int side = 2 * radius + 2;
-  const cv::Rect inside(0, 0, image.cols - side + 1, image.rows - side);
-  std::ptrdiff_t step = columnsOf(side - 1) + 1;
-  const uchar* pixels = border_.data();
-  if (inside.contains({first_x, first_y})) {
-    step = static_cast<std::ptrdiff_t>(image.step[0]);
-    pixels = image.data + first_y * step + first_x;
-  } else {
-    for (int y = 0; y < side; ++y) {
-      const auto* row = image.ptr<uchar>(std::clamp(first_y + y, 0, image.rows - 1));
-      uchar* to = border_.data() + y * step;
-      for (int x = 0; x < side; ++x) to[x] = row[std::clamp(first_x + x, 0, image.cols - 1)];
-    }
+  // Registers read on in the next row.
+  const cv::Rect inside(radius, radius, image.cols - side + 1, image.rows - side);
+  if (std::abs(1.0F / scale - 1.0F) * static_cast<float>(radius_) < kMinStretch_px) scale = 1.0F;
+  if (scale == 1.0F && inside.contains({cvFloor(center.x), cvFloor(center.y)})) {
+    return patchAt(image, center, radius);
   }
-  return {pixels,
-          step,
-          fractionOf(center.x - static_cast<float>(first_x + radius)),
-          fractionOf(center.y - static_cast<float>(first_y + radius))};
-}
-
-/// The patch enlarged by `scale`, interpolated at whole pixels of the window.
-Patch TrackingWindow::resample(const cv::Mat& image,
-                               const cv::Point2f& center,
-                               int radius,
-                               float scale) {
-  const int side = 2 * radius + 2;
   const int step = columnsOf(side - 1) + 1;
-  const auto pixelOf = [&](float at, int i, int count) {
-    const float last = static_cast<float>(count - 1);
-    return std::clamp(at + static_cast<float>(i - radius) / scale, 0.0F, last);
+  const auto placeOf = [&](int i, float middle, int count) {
+    const float place = middle + static_cast<float>(i - radius) / scale;
+    return std::clamp(place, 0.0F, static_cast<float>(count - 1));
   };
-  for (int y = 0; y < side; ++y) {
-    const float row = pixelOf(center.y, y, image.rows);
-    const auto* upper = image.ptr<uchar>(static_cast<int>(row));
-    const auto* lower = image.ptr<uchar>(std::min(static_cast<int>(row) + 1, image.rows - 1));
-    const float down = row - std::floor(row);
-    for (int x = 0; x < side; ++x) {
-      const float column = pixelOf(center.x, x, image.cols);
-      const int left = static_cast<int>(column);
-      const int right = std::min(left + 1, image.cols - 1);
-      const float aside = column - std::floor(column);
-      const float above = static_cast<float>(upper[left]) * (1.0F - aside) +
-                          static_cast<float>(upper[right]) * aside;
-      const float below = static_cast<float>(lower[left]) * (1.0F - aside) +
-                          static_cast<float>(lower[right]) * aside;
-      border_[static_cast<std::size_t>(y * step + x)] =
-          static_cast<uchar>(above + down * (below - above) + 0.5F);
+  const auto between = [](float a, float b, float at) { return a + at * (b - a); };
+  for (int x = 0; x < side; ++x) {
+    const float column = placeOf(x, center.x, image.cols);
+    const int left = static_cast<int>(column);
+    const int right = std::min(left + 1, image.cols - 1);
+    const float aside = column - static_cast<float>(left);
+    for (int y = 0; y < side; ++y) {
+      const float row = placeOf(y, center.y, image.rows);
+      const int top = static_cast<int>(row);
+      const auto* upper = image.ptr<uchar>(top);
+      const auto* lower = image.ptr<uchar>(std::min(top + 1, image.rows - 1));
+      const float value = between(between(upper[left], upper[right], aside),
+                                  between(lower[left], lower[right], aside),
+                                  row - static_cast<float>(top));
+      resampled_[static_cast<std::size_t>(y * step + x)] = static_cast<uchar>(value + 0.5F);
     }
   }
-  return {border_.data(), step, 0, 0};
+  return {resampled_.data(), step, 0, 0};
 }
 
 bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float scale) {
   if (!contains(image, center)) return false;
-  const float per_px = 1.0F / scale - 1.0F;
-  const bool is_similar = std::abs(per_px) * static_cast<float>(radius_) < kMaxSpread_px;
-  spread(is_similar ? per_px : 0.0F);
-  const Patch patch = is_similar ? patchAround(image, center, radius_ + 1)
-                                 : resample(image, center, radius_ + 1, scale);
+  const Patch patch = patchAround(image, center, radius_ + 1, scale);
   return invertNormalMatrix(kernels_->takeWindow(patch, window_));
-}
-
-/// Sets the sampling offsets from the pixel grid, which grow by `per_px` with each pixel.
-void TrackingWindow::spread(float per_px) {
-  for (int i = 0; i < side_; ++i) {
-    window_.spread[i] = fractionOf(per_px * static_cast<float>(i - radius_));
-  }
 }
 
 /// Sets what a change of brightness and contrast does to the least squares for a shift.
@@ -204,7 +174,7 @@ bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& c
   cv::Point2f found = center;
   for (int i = 0; i < stop.max_iterations; ++i) {
     if (!contains(image, found)) return false;
-    const cv::Point2f step = stepFrom(patchAround(image, found, radius_));
+    const cv::Point2f step = stepFrom(patchAround(image, found, radius_, 1.0F));
     found += step;
     if (cv::norm(found - center) > stop.max_shift_px) return false;
     if (step.dot(step) <= min_px2) break;

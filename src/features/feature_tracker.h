@@ -31,8 +31,8 @@ class TrackingWindow {
   int radius() const { return radius_; }
 
   /// Stores the window around `center` of `image` (CV_8UC1), with its content enlarged by `scale` >
-  /// 0 (a first-order approximation, accurate enough for changes of a tenth). Returns false if the
-  /// center is outside the image or the texture is too weak to locate the window.
+  /// 0. Returns false if the center is outside the image or the texture is too weak to locate the
+  /// window.
   bool take(const cv::Mat& image, const cv::Point2f& center, float scale);
 
   /// Moves `center` to the position in `image` that matches the stored window. Returns false, with
@@ -43,9 +43,7 @@ class TrackingWindow {
   double correlation() const { return correlation_; }
 
  private:
-  Patch patchAround(const cv::Mat& image, const cv::Point2f& center, int radius);
-  Patch resample(const cv::Mat& image, const cv::Point2f& center, int radius, float scale);
-  void spread(float per_px);
+  Patch patchAround(const cv::Mat& image, const cv::Point2f& center, int radius, float scale);
   bool describeContrast(const WindowSums& sums);
   bool invertNormalMatrix(const WindowSums& sums);
   cv::Point2f stepFrom(const Patch& patch);
@@ -53,7 +51,7 @@ class TrackingWindow {
   const Kernels* kernels_;
   int radius_, side_;
   Window window_ = {};
-  std::vector<uchar> border_;         // copy of a patch that extends beyond the image border
+  std::vector<uchar> resampled_;      // a patch that extends beyond the image, or of another scale
   cv::Point2d mean_gradient_;         // [gray levels / px]
   double mean_contrast_ = 0.0;        // [gray levels]
   double contrast_square_ = 0.0;      // sum of squares about the mean

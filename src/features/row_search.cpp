@@ -45,9 +45,7 @@ struct CornerOffset {
 RowSearch::RowSearch(const CorrespondenceFinderConfig& config)
     : matcher_(config.stereo_matcher), tracker_(config.feature_tracker) {}
 
-std::vector<float> RowSearch::search(const StereoCamera& camera,
-                                     const Keyframe& keyframe,
-                                     int max_rows) {
+std::vector<float> RowSearch::search(const StereoCamera& camera, const Keyframe& keyframe) {
   std::vector<cv::Point2f> sample_px;
   const std::size_t step = std::max<std::size_t>(1, keyframe.corners.size() / kCorners);
   for (std::size_t i = 0; i < keyframe.corners.size(); i += step) {
@@ -58,7 +56,7 @@ std::vector<float> RowSearch::search(const StereoCamera& camera,
   const cv::Mat& right = keyframe.frame->right.front();
   const auto detail_px = static_cast<float>(camera.detail_px);
   std::vector<CornerOffset> found(sample_px.size());
-  for (int rows = -max_rows; rows <= max_rows; ++rows) {
+  for (int rows = -kMaxRows; rows <= kMaxRows; ++rows) {
     // Matches that leave their row were found in a wrong one.
     const float lower_px = static_cast<float>(rows) * detail_px;
     const RectifiedImages images = {left, right, camera, lower_px};

@@ -24,14 +24,14 @@ struct RowSample {
 /// positive if a point is lower in the right image. Has no state except reused buffers.
 class RowSearch {
  public:
-  /// Largest offset at which corners are found, in pixels of detail of images that are not doubled.
+  /// Largest offset at which corners are found, in pixels of detail.
   static constexpr int kMaxRows = 3;
 
   explicit RowSearch(const CorrespondenceFinderConfig& config);
 
-  /// Offsets [px] of a sample of the keyframe's corners. They may be up to `max_rows` details and
-  /// need not be known before: several rows are searched.
-  std::vector<float> search(const StereoCamera& camera, const Keyframe& keyframe, int max_rows);
+  /// Offsets [px] of a sample of the keyframe's corners. They may be up to kMaxRows and need not
+  /// be known before: several rows are searched.
+  std::vector<float> search(const StereoCamera& camera, const Keyframe& keyframe);
 
   /// Sets `samples` to a sample of the flagged features of `current`, near `row_offset_px`. Flows
   /// are those by the motion, without the noise of the positions.

@@ -5,9 +5,11 @@
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 namespace {
 
-/// Number of rows whose products fit into 32 bits, two per lane. With spreading, values are up to
-/// 485 gray levels, and differences as many; squares of the latter are the largest products.
-constexpr int kBlockRows = 16;
+// Sums over all rows of a window fit into 32 bits, two products per lane: the largest are squares
+// of differences of 255 gray levels.
+static_assert(2LL * Window::kMaxSide * (255LL << MismatchSums::kDifferenceBits) *
+                  (255LL << MismatchSums::kDifferenceBits) <=
+              2147483647LL);
 
 constexpr int kStride = Window::kStride;
 
@@ -29,8 +31,6 @@ Shorts difference(const std::int16_t* a, const std::int16_t* b) {
 }  // namespace
 
 WindowSums takeWindow(const Patch& patch, Window& window) {
-  // A gradient times a sampling offset is a value with 16 extra bits.
-  constexpr int kUpToValue = 1 + Window::kValueBits - Window::kGradientBits;
   // As wide as a window, and a register to read on.
   constexpr int kSampleStride = Window::kStride + kShorts;
   std::int16_t samples[(Window::kMaxSide + 2) * kSampleStride];
@@ -41,8 +41,6 @@ WindowSums takeWindow(const Patch& patch, Window& window) {
   WindowSums sums = {};
   for (int x = 0; x < window.side; x += kShorts) {
     const Shorts mask = vx_load(window.mask + x);
-    const Shorts spread_x = vx_load(window.spread + x);
-    const std::int16_t* spread_y = window.spread;
     Ints minus_x = vx_setzero_s32();
     Ints minus_y = vx_setzero_s32();
     Ints minus_contrast = vx_setzero_s32();
@@ -64,9 +62,7 @@ WindowSums takeWindow(const Patch& patch, Window& window) {
                                difference(below + 1, above + 1),
                                difference(below + 2, above + 2)) &
                         mask;
-      const Shorts aside = v_mul_hi(shiftLeft<kUpToValue>(gx), spread_x);
-      const Shorts down = v_mul_hi(shiftLeft<kUpToValue>(gy), vx_setall_s16(*spread_y++));
-      const Shorts value = vx_load(here + 1) + aside + down;
+      const Shorts value = vx_load(here + 1);
       const Shorts contrast = v_shr<kToContrast>(value - middle_value) & mask;
       v_store(window.values + at, value);
       v_store(window.gradient_x + at, gx);
@@ -101,35 +97,32 @@ MismatchSums compareWindow(const Patch& patch, const Window& window) {
   const Shorts fy = vx_setall_s16(patch.fy);
   constexpr int kShift = Window::kValueBits - MismatchSums::kDifferenceBits;
   MismatchSums sums = {};
-  for (int first = 0; first < window.side; first += kBlockRows) {
-    const int last = first + kBlockRows < window.side ? first + kBlockRows : window.side;
-    for (int x = 0; x < window.side; x += kShorts) {
-      const std::uint8_t* pixels = patch.pixels + first * patch.step + x;
-      const Shorts mask = vx_load(window.mask + x);
-      Ints minus_sum = vx_setzero_s32();
-      Ints sum_x = vx_setzero_s32();
-      Ints sum_y = vx_setzero_s32();
-      Ints contrast = vx_setzero_s32();
-      Ints square = vx_setzero_s32();
-      Shorts upper = betweenColumns<Window::kValueBits>(pixels, fx);
-      for (int at = first * kStride + x; at < last * kStride; at += kStride) {
-        pixels += patch.step;
-        const Shorts lower = betweenColumns<Window::kValueBits>(pixels, fx);
-        const Shorts excess =
-            v_shr<kShift>(betweenRows(upper, lower, fy) - vx_load(window.values + at)) & mask;
-        minus_sum += v_dotprod(excess, mask);
-        sum_x += v_dotprod(excess, vx_load(window.gradient_x + at));
-        sum_y += v_dotprod(excess, vx_load(window.gradient_y + at));
-        contrast += v_dotprod(excess, vx_load(window.contrast + at));
-        square += v_dotprod(excess, excess);
-        upper = lower;
-      }
-      sums.one -= sum(minus_sum);
-      sums.x += sum(sum_x);
-      sums.y += sum(sum_y);
-      sums.contrast += sum(contrast);
-      sums.square += sum(square);
+  for (int x = 0; x < window.side; x += kShorts) {
+    const std::uint8_t* pixels = patch.pixels + x;
+    const Shorts mask = vx_load(window.mask + x);
+    Ints minus_sum = vx_setzero_s32();
+    Ints sum_x = vx_setzero_s32();
+    Ints sum_y = vx_setzero_s32();
+    Ints contrast = vx_setzero_s32();
+    Ints square = vx_setzero_s32();
+    Shorts upper = betweenColumns<Window::kValueBits>(pixels, fx);
+    for (int at = x; at < window.side * kStride; at += kStride) {
+      pixels += patch.step;
+      const Shorts lower = betweenColumns<Window::kValueBits>(pixels, fx);
+      const Shorts excess =
+          v_shr<kShift>(betweenRows(upper, lower, fy) - vx_load(window.values + at)) & mask;
+      minus_sum += v_dotprod(excess, mask);
+      sum_x += v_dotprod(excess, vx_load(window.gradient_x + at));
+      sum_y += v_dotprod(excess, vx_load(window.gradient_y + at));
+      contrast += v_dotprod(excess, vx_load(window.contrast + at));
+      square += v_dotprod(excess, excess);
+      upper = lower;
     }
+    sums.one -= sum(minus_sum);
+    sums.x += sum(sum_x);
+    sums.y += sum(sum_y);
+    sums.contrast += sum(contrast);
+    sums.square += sum(square);
   }
   return sums;
 }

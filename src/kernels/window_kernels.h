@@ -27,9 +27,8 @@ struct Window {
 
   int side;
   Rows values, gradient_x, gradient_y;
-  Rows contrast;                 ///< values less the middle one, in units of 1 / 2^kContrastBits
-  std::int16_t mask[kStride];    ///< for a row: -1 within the side, else 0
-  std::int16_t spread[kStride];  ///< sampling offset of each column and row [px / 2^15]
+  Rows contrast;               ///< values less the middle one, in units of 1 / 2^kContrastBits
+  std::int16_t mask[kStride];  ///< for a row: -1 within the side, else 0
 };
 
 /// Sums of the gradients and of the contrast over a window, and of their products.

@@ -14,7 +14,6 @@ namespace {
 
 /// Limits of one minimization: it usually takes two or three steps.
 constexpr int kMaxMinimizerSteps = 19;
-constexpr double kMinCostChange_px2 = 2e-6;
 
 /// Steps of the refinement, each with new weights.
 constexpr int kRefinements = 4;
@@ -22,15 +21,6 @@ constexpr int kRefinements = 4;
 /// Standard deviation of an error that neighbors share, over the flow noise: 2.4 to 6 on the rigs
 /// of KITTI, Karlsruhe and EuRoC.
 constexpr double kSharedRatio = 3.0;
-
-/// TinySolver of Ceres 1.14 has no function_tolerance: there it continues to the other limits.
-template <class SolverOptions>
-auto setFunctionTolerance(SolverOptions& options, double tolerance, int)
-    -> decltype(options.function_tolerance, void()) {
-  options.function_tolerance = tolerance;
-}
-template <class SolverOptions>
-void setFunctionTolerance(SolverOptions&, double, long) {}
 
 /// For ceres::TinySolver: a problem with few residuals and the same J^T J, J^T r and r^T r. The
 /// solver uses nothing else. The parameters are a rotation vector relative to the motion of the
@@ -64,8 +54,9 @@ struct Condensed {
     const Eigen::Isometry3d T = motionAt(p);
     Eigen::Map<Eigen::Matrix<double, NUM_RESIDUALS, 1>> r(residuals);
     if (jacobian == nullptr) {
+      constexpr int kResidual = LinearBlock::kResidual;
       r.setZero();
-      r[0] = std::sqrt(problem.cost(T));
+      r[0] = std::sqrt(problem.normalMatrix(T, kResidual)(kResidual, kResidual));
       return true;
     }
     using Normal = Eigen::Matrix<double, NUM_RESIDUALS, NUM_RESIDUALS>;
@@ -103,7 +94,6 @@ bool minimize(ReprojectionProblem& problem) {
   ceres::TinySolver<Condensed<kParameters>> solver;
   solver.options.max_num_iterations = kMaxMinimizerSteps + 1;  // it counts the start
   solver.options.parameter_tolerance = 1e-7;
-  setFunctionTolerance(solver.options, 0.5 * kMinCostChange_px2, 0);
   auto parameters = condensed.start();
   solver.Solve(condensed, &parameters);
   return moveTo(condensed.motionAt(parameters), problem);

@@ -94,12 +94,6 @@ class ReprojectionProblem {
   /// The normal matrix at a motion: columns of LinearBlock from `first` on, the others are zero.
   NormalMatrix normalMatrix(const Eigen::Isometry3d& T_keyframe_cur, int first) const;
 
-  /// Sum of w |r|^2, without the part that shared errors explain.
-  double cost(const Eigen::Isometry3d& T_keyframe_cur) const {
-    return normalMatrix(T_keyframe_cur, LinearBlock::kResidual)(LinearBlock::kResidual,
-                                                                LinearBlock::kResidual);
-  }
-
   /// |r| of all features at motion() [px], whatever their weights.
   void errors(std::vector<double>& errors_px) const;
 

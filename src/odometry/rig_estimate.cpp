@@ -78,10 +78,7 @@ double RigEstimate::correctedDelay() const {
 
 void RigEstimate::startKeyframe(Keyframe& keyframe) {
   past_ = filter_;
-  if (!rows_.isKnown()) {
-    const int max_rows = (level_ < 0 ? 2 : 1) * RowSearch::kMaxRows;
-    rows_.observe(row_search_.search(correctedCamera(), keyframe, max_rows));
-  }
+  if (!rows_.isKnown()) rows_.observe(row_search_.search(correctedCamera(), keyframe));
   keyframe.row_offset_px = correctedRows();
   keyframe.right_delay_s = correctedDelay();
 }

@@ -63,8 +63,9 @@ std::optional<BiasMeasurement> BiasMeter::measure(const StereoCamera& camera,
   camera_ = camera;
   T_keyframe_cur_ = T_keyframe_cur;
   features_ = features;
+  double variance_px2 = 0.0;
   for (int step = 0; step < kMostSteps && features_.size() >= kLeastFeatures; ++step) {
-    const double variance_px2 = linearize();
+    variance_px2 = linearize();
     const Bias bias = eliminateMotion(problem_.normalMatrix(T_keyframe_cur_, LinearBlock::kBias));
     if (!(variance_px2 / bias.information < kMostSigma_px * kMostSigma_px)) return std::nullopt;
     const double step_px = bias.weighted / bias.information;
@@ -74,7 +75,7 @@ std::optional<BiasMeasurement> BiasMeter::measure(const StereoCamera& camera,
     if (std::abs(change_px) < kSettled_px) break;
   }
   if (features_.size() < kLeastFeatures) return std::nullopt;
-  auto measurement = describe();
+  auto measurement = describe(variance_px2);
   if (measurement) measurement->bias_px = camera_.cx_right - camera.cx_right;
   return measurement;
 }
@@ -98,14 +99,14 @@ double BiasMeter::linearize() {
   return variance.value(kParameters);
 }
 
-std::optional<BiasMeasurement> BiasMeter::describe() {
-  const double variance_px2 = linearize();
+/// At the start of the last step, with the variance of the residuals there.
+std::optional<BiasMeasurement> BiasMeter::describe(double variance_px2) {
   // The curvature of reweighted least squares never overshoots. That which the robust cost has on
   // average, from the squared weights (see motion_estimator.cpp), gives the uncertainty.
   problem_.squareWeights();
-  const Bias all = eliminateMotion(problem_.normalMatrix(T_keyframe_cur_, LinearBlock::kBias));
+  const Bias all = eliminateMotion(problem_.normalMatrix(problem_.motion(), LinearBlock::kBias));
   problem_.shareErrors(0.0, 0.0);
-  const Bias alone = eliminateMotion(problem_.normalMatrix(T_keyframe_cur_, LinearBlock::kBias));
+  const Bias alone = eliminateMotion(problem_.normalMatrix(problem_.motion(), LinearBlock::kBias));
   BiasMeasurement measurement;
   measurement.noise_px2 = variance_px2 / alone.information;
   measurement.shared_px2 = variance_px2 / all.information - measurement.noise_px2;

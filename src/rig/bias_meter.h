@@ -35,7 +35,7 @@ class BiasMeter {
  private:
   double linearize();
   void change(const Vector6d& motion, double bias_px);
-  std::optional<BiasMeasurement> describe();
+  std::optional<BiasMeasurement> describe(double variance_px2);
 
   // The current step of one measurement, reused.
   StereoCamera camera_;

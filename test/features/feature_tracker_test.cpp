@@ -124,6 +124,30 @@ TEST(FeatureTrackerTest, FindsTheFlowFromAPoorPrediction) {
   }
 }
 
+TEST(FeatureTrackerTest, FindsPointsAtAnotherScale) {
+  for (const float scale : {0.6F, 1.3F, 2.0F}) {
+    ImagePyramid from = {drive().first};
+    ImagePyramid to(1);
+    cv::resize(from[0], to[0], {}, scale, scale, scale < 1.0F ? cv::INTER_AREA : cv::INTER_LINEAR);
+    FeatureTracker tracker({});
+    std::size_t with_scale = 0;
+    std::size_t without = 0;
+    for (const cv::Point2f& corner : drive().corners) {
+      const cv::Point2f half(0.5F, 0.5F);
+      const cv::Point2f truth = scale * (corner + half) - half;
+      const auto isFound = [&](float predicted_scale) {
+        cv::Point2f end = truth + cv::Point2f(1.0F, -1.0F);
+        return tracker.track(from, to, corner, predicted_scale, end) &&
+               cv::norm(end - truth) < 0.3 * std::max(1.0F, scale);
+      };
+      with_scale += isFound(scale) ? 1 : 0;
+      without += isFound(1.0F) ? 1 : 0;
+    }
+    EXPECT_GT(with_scale, 0.8 * static_cast<double>(drive().corners.size())) << scale;
+    EXPECT_GT(with_scale, 1.2 * static_cast<double>(without)) << scale;
+  }
+}
+
 TEST(FeatureTrackerTest, UsesSmallImagesWhereAPointIsNotNear) {
   const auto errors = [](double distance_px, int levels) {
     return distances(track(drive().first,
