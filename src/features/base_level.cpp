@@ -81,14 +81,12 @@ void BaseLevel::observe(const cv::Mat& image, const ImagePyramid& pyramid) {
   const double windows = windowsIn(image);
   const double least = is_soft_[0] || config_.min_halvings > 0 ? 1.0 : kLeastRoom;
   if (level_ == 0 && windows < least) level_ = -1;
-  detail_px_ = 1.0;
+  // Enlarging an image by a factor divides its sharpness by about the square of the factor. A sharp
+  // image that is doubled has room for kRoom windows of sqrt(windows) details.
   const auto level = static_cast<std::size_t>(std::max(level_, 0));
-  if (is_soft_[level]) {
-    // Enlarging an image by a factor divides its sharpness by about the square of the factor.
-    detail_px_ = std::max(detail_px_, std::exp(-0.5 * log_sharpness_[level]));
-  } else if (level_ < 0) {
-    detail_px_ = std::max(detail_px_, std::sqrt(windows));  // kRoom windows of the doubled image
-  }
+  const double of_sharp = level_ < 0 ? std::sqrt(windows) : 1.0;
+  const double side_px = is_soft_[level] ? std::exp(-0.5 * log_sharpness_[level]) : of_sharp;
+  detail_px_ = std::max(1.0, side_px);
 }
 
 void BaseLevel::observeLevel(const cv::Mat& image, const cv::Mat* smaller) {

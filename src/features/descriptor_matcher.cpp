@@ -6,6 +6,7 @@
 
 #include <opencv2/features2d.hpp>
 
+#include "common/image_grid.h"
 #include "features/image_noise.h"
 
 namespace rotrocc {
@@ -16,9 +17,15 @@ namespace {
 constexpr int kPixels = 200;
 constexpr int kMaxFeatures = 1500;
 
-/// Matches that are used, those with the most similar descriptors. Nearly half of them are right
-/// where a tenth of all are.
-constexpr std::size_t kMatches = 70;
+/// Matches that are used: in each cell of the image, those with the most similar descriptors.
+/// Nearly half of these are right where a tenth of all are.
+constexpr int kColumns = 4;
+constexpr int kRows = 2;
+constexpr int kMatches = 12;
+
+/// What moves less in the image looks most similar, as the robot's own parts do, and would be many
+/// of these. That the camera rests was tried before. In pixels of detail.
+constexpr double kRest_px = 2.0;
 
 /// Scales of the descriptors, in steps of a quarter: depths that change by a factor of two.
 constexpr float kScaleStep = 1.25F;
@@ -63,14 +70,17 @@ Correspondences matchDescriptors(const StereoCamera& camera,
   std::stable_sort(matches.begin(), matches.end());  // by the distance
   const RectifiedImages images = {
       current.left.front(), current.right.front(), camera, keyframe.row_offset_px};
+  const ImageGrid grid(camera.width, camera.height, kColumns, kRows);
+  std::vector<int> counts(grid.count(), 0);
   Correspondences features;
   for (const cv::DMatch& match : matches) {
-    if (features.size() == kMatches) break;
     const auto& earlier = in_earlier.keypoints[static_cast<std::size_t>(match.queryIdx)].pt;
     const auto& cur = in_current.keypoints[static_cast<std::size_t>(match.trainIdx)].pt;
+    if (cv::norm(cur - earlier) < kRest_px * camera.detail_px) continue;
     const cv::Point2f pixel(std::round(cur.x), std::round(cur.y));  // depths are at whole pixels
     const auto depth = depths.match(images, pixel);
-    if (depth) features.push_back({{earlier.x, earlier.y}, {cur.x, cur.y}, depth->disparity_px});
+    if (!depth || counts[grid.cell(cur.x, cur.y)]++ >= kMatches) continue;
+    features.push_back({{earlier.x, earlier.y}, {cur.x, cur.y}, depth->disparity_px});
   }
   triangulate(camera, features);
   return features;
