@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "common/median.h"
 #include "motion/feature_errors.h"
 
 namespace rotrocc {
@@ -15,7 +16,7 @@ constexpr double kMemory = 1000.0;
 
 /// Noise averages out over more features than that, but not what lenses leave beyond the
 /// polynomial: on KITTI and Karlsruhe, it passes for a delay of a hundredth of the period.
-constexpr double kIndependent = 80.0;
+constexpr double kIndependent = 40.0;
 
 /// A delay of this many standard deviations is applied by half, a smaller one hardly, a larger one
 /// as a whole.
@@ -29,10 +30,25 @@ constexpr double kPriorDelay = 0.2;
 /// With more than this share of the period, the images are of other pairs.
 constexpr double kMostDelay = 0.5;
 
+/// Standard deviation of the first residuals, over that about their median: what a delay makes of
+/// them is not wrong yet.
+constexpr double kStart = 3.0;
+
 /// Variance of residuals without noise, by rounding.
 constexpr double kRounding = 1e-12;
 
 }  // namespace
+
+/// At the median offset, without a delay: wrong rows of the first pair must not pass for one.
+void DelayFilter::start(double fx_px, const std::vector<RowSample>& samples) {
+  std::vector<float> offsets_px;
+  for (const RowSample& sample : samples) offsets_px.push_back(sample.offset_px);
+  const float middle_px = median(offsets_px);
+  for (float& offset_px : offsets_px) offset_px = std::abs(offset_px - middle_px);
+  solution_[0] = middle_px / fx_px;
+  const double deviation = kStart * kDeviationOverMedian * median(offsets_px) / fx_px;
+  variance_ = std::max(deviation * deviation, kRounding);
+}
 
 void DelayFilter::add(const StereoCamera& camera,
                       double dt_s,
@@ -41,6 +57,7 @@ void DelayFilter::add(const StereoCamera& camera,
   normal_ *= kept;
   count_ *= kept;
   squares_ *= kept;
+  if (count_ == 0.0 && !samples.empty()) start(camera.fx, samples);
   for (const RowSample& sample : samples) {
     const double x = (sample.left_px.x() - camera.cx) / camera.fx;
     const double y = (sample.left_px.y() - camera.cy) / camera.fx;

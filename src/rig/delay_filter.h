@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -23,6 +22,8 @@ class DelayFilter {
   const RightDelay& delay() const { return delay_; }
 
  private:
+  void start(double fx_px, const std::vector<RowSample>& samples);
+
   static constexpr int kUnknowns = 7;  // the polynomial, then the delay
   static constexpr int kColumns = kUnknowns + 1;
   using Columns = Eigen::Matrix<double, kColumns, 1>;
@@ -31,8 +32,8 @@ class DelayFilter {
   Eigen::Matrix<double, kColumns, kColumns> normal_ = decltype(normal_)::Zero();
   Columns solution_ = -Columns::Unit(kUnknowns);  // times the columns: the residual
   double count_ = 0.0;                            // sum of the weights
-  double squares_ = 0.0;  // weighted sum of squared residuals, by the estimate before
-  double variance_ = std::numeric_limits<double>::infinity();  // of a residual
+  double squares_ = 0.0;   // weighted sum of squared residuals, by the estimate before
+  double variance_ = 0.0;  // of a residual
 };
 
 }  // namespace rotrocc
