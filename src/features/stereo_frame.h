@@ -69,8 +69,8 @@ struct StereoFrame {
   FeatureMask left_mask, right_mask;
 
   /// Levels of left and right, without doubled images. In the smallest one, a window of the tracker
-  /// reaches four times as far, for features whose prediction is far off. What is farther is left to
-  /// the search for the motion.
+  /// reaches four times as far, for features whose prediction is far off. What is farther is left
+  /// to the search for the motion.
   static constexpr int kLevels = 3;
 
   bool hasImage() const { return !whole_left.front().empty(); }
