@@ -71,13 +71,12 @@ Patch TrackingWindow::patchAround(const cv::Mat& image,
                                   int radius,
                                   float scale) {
   const int side = 2 * radius + 2;
-  // Registers read on in the next row.
+  const int step = columnsOf(side - 1) + 1;
+  // Registers read on in the next row, and not beyond it.
   const cv::Rect inside(radius, radius, image.cols - side + 1, image.rows - side);
   if (std::abs(1.0F / scale - 1.0F) * static_cast<float>(radius_) < kMinStretch_px) scale = 1.0F;
-  if (scale == 1.0F && inside.contains({cvFloor(center.x), cvFloor(center.y)})) {
-    return patchAt(image, center, radius);
-  }
-  const int step = columnsOf(side - 1) + 1;
+  const bool is_inside = inside.contains({cvFloor(center.x), cvFloor(center.y)});
+  if (scale == 1.0F && is_inside && step <= image.cols) return patchAt(image, center, radius);
   const auto placeOf = [&](int i, float middle, int count) {
     const float place = middle + static_cast<float>(i - radius) / scale;
     return std::clamp(place, 0.0F, static_cast<float>(count - 1));

@@ -32,7 +32,7 @@ class FeatureMask {
     cv::dilate(mask, grown_, cv::getStructuringElement(cv::MORPH_RECT, window));
   }
 
-  /// Pixels are those of an image that is halved `level` times; -1: doubled.
+  /// From now on pixels refer to an image halved `level` times; -1: doubled.
   void setLevel(int level) { px_ = std::ldexp(1.0F, level); }
 
   /// Whether a pixel may not be used. Those outside the image may.

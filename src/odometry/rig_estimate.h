@@ -31,8 +31,8 @@ class RigEstimate {
   /// began with. Returns whether they are kept.
   bool setCamera(const StereoCamera& camera);
 
-  /// From now on pixels are those of images that are halved `level` times (-1: doubled), and show
-  /// details of `detail_px`. The estimates are kept.
+  /// From now on pixels refer to images halved `level` times (-1: doubled), whose details have the
+  /// side `detail_px`. The estimates are kept.
   void setLevel(int level, double detail_px);
 
   /// The camera as it was passed.

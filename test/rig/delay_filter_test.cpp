@@ -77,6 +77,23 @@ TEST(DelayFilterTest, AppliesNothingWithoutADelay) {
   EXPECT_NEAR(filter.delay().applied_s, 0.0, 1e-4);
 }
 
+/// A quarter of its features would fit half a period, as fast ones in saturated parts of an image
+/// do.
+TEST(DelayFilterTest, WrongRowsOfTheFirstPairAreNoDelay) {
+  Rig rig(0.0);
+  DelayFilter filter;
+  std::vector<RowSample> first = rig.pair(camera(), 1.0);
+  for (std::size_t i = 0; i < first.size(); i += 4) {
+    first[i].flow_px.y() = 20.0;
+    first[i].offset_px = 10.0F;
+  }
+  filter.add(camera(), kPeriod_s, first);
+  for (int i = 0; i < 30; ++i) {
+    filter.add(camera(), kPeriod_s, rig.pair(camera(), 1.0));
+    EXPECT_NEAR(filter.delay().applied_s, 0.0, 1e-3) << i;
+  }
+}
+
 TEST(DelayFilterTest, KnowsNothingAtRest) {
   DelayFilter filter;
   drive(60, Rig(0.0, 0.0, 0.5), filter);
