@@ -18,9 +18,9 @@ constexpr double kOfGradient = 1.0 / (1 << Window::kGradientBits);
 constexpr double kOfContrast = 1.0 / (1 << Window::kContrastBits);
 constexpr double kOfDifference = 1.0 / (1 << MismatchSums::kDifferenceBits);
 
-/// Columns that are read for so many columns of a window: whole registers.
-constexpr int columnsOf(int count) {
-  return (count + kMaxShorts - 1) / kMaxShorts * kMaxShorts;
+/// Pixels in a row of a patch, of which all but the last one are read in whole registers.
+constexpr int stepOf(int side) {
+  return (side + kMaxShorts - 2) / kMaxShorts * kMaxShorts + 1;
 }
 
 bool contains(const cv::Mat& image, const cv::Point2f& point) {
@@ -40,12 +40,14 @@ constexpr double kMinCorrelation = 0.6;
 
 constexpr double kAnywhere_px = std::numeric_limits<double>::infinity();
 
-/// When iterations of a level stop. Gauss-Newton converges within a few; steps below a fraction of
-/// the flow's noise, about 0.1 px, gain nothing.
-constexpr TrackingWindow::Stop kStop = {6, 0.04, kAnywhere_px};
+/// Gauss-Newton converges within a few iterations of a level.
+constexpr int kMaxIterations = 6;
+
+/// Steps below a fraction of the flow's noise, about 0.1 px, gain nothing.
+constexpr TrackingWindow::Stop kStop = {0.04, kAnywhere_px};
 
 /// The small images only provide a start for the large one.
-constexpr TrackingWindow::Stop kRoughly = {6, 0.12, kAnywhere_px};
+constexpr TrackingWindow::Stop kRoughly = {0.12, kAnywhere_px};
 
 /// Scale of pixel coordinates in a level of the pyramid.
 float scaleOf(std::size_t level) {
@@ -58,7 +60,7 @@ TrackingWindow::TrackingWindow(int radius_px)
     : kernels_(&chooseKernels()),
       radius_(radius_px),
       side_(2 * radius_px + 1),
-      resampled_(static_cast<std::size_t>((side_ + 3) * (columnsOf(side_ + 2) + 1))) {
+      copy_(static_cast<std::size_t>((side_ + 3) * stepOf(side_ + 3))) {
   CV_Assert(side_ <= Window::kMaxSide);
   window_.side = side_;
   std::fill_n(window_.mask, side_, std::int16_t{-1});
@@ -70,39 +72,60 @@ Patch TrackingWindow::patchAround(const cv::Mat& image,
                                   const cv::Point2f& center,
                                   int radius,
                                   float scale) {
+  if (scale != 1.0F) return resample(image, center, radius, scale);
   const int side = 2 * radius + 2;
-  const int step = columnsOf(side - 1) + 1;
+  const int step = stepOf(side);
   // Registers read on in the next row, and not beyond it.
   const cv::Rect inside(radius, radius, image.cols - side + 1, image.rows - side);
-  if (std::abs(1.0F / scale - 1.0F) * static_cast<float>(radius_) < kMinStretch_px) scale = 1.0F;
-  const bool is_inside = inside.contains({cvFloor(center.x), cvFloor(center.y)});
-  if (scale == 1.0F && is_inside && step <= image.cols) return patchAt(image, center, radius);
-  const auto placeOf = [&](int i, float middle, int count) {
-    const float place = middle + static_cast<float>(i - radius) / scale;
-    return std::clamp(place, 0.0F, static_cast<float>(count - 1));
+  const cv::Point whole(cvFloor(center.x), cvFloor(center.y));
+  if (inside.contains(whole) && step <= image.cols) return patchAt(image, center, radius);
+  for (int y = 0; y < side; ++y) {
+    const auto* row = image.ptr<uchar>(std::clamp(whole.y - radius + y, 0, image.rows - 1));
+    uchar* out = &copy_[static_cast<std::size_t>(y * step)];
+    for (int x = 0; x < side; ++x)
+      out[x] = row[std::clamp(whole.x - radius + x, 0, image.cols - 1)];
+  }
+  const cv::Point2f rest = center - cv::Point2f(whole);
+  return {copy_.data(), step, fractionOf(rest.x), fractionOf(rest.y)};
+}
+
+Patch TrackingWindow::resample(const cv::Mat& image,
+                               const cv::Point2f& center,
+                               int radius,
+                               float scale) {
+  constexpr int kBits = 10;
+  struct Place {
+    int before, after, part;  // after `before`, in units of 1 / 2^kBits
   };
-  const auto between = [](float a, float b, float at) { return a + at * (b - a); };
-  for (int x = 0; x < side; ++x) {
-    const float column = placeOf(x, center.x, image.cols);
-    const int left = static_cast<int>(column);
-    const int right = std::min(left + 1, image.cols - 1);
-    const float aside = column - static_cast<float>(left);
-    for (int y = 0; y < side; ++y) {
-      const float row = placeOf(y, center.y, image.rows);
-      const int top = static_cast<int>(row);
-      const auto* upper = image.ptr<uchar>(top);
-      const auto* lower = image.ptr<uchar>(std::min(top + 1, image.rows - 1));
-      const float value = between(between(upper[left], upper[right], aside),
-                                  between(lower[left], lower[right], aside),
-                                  row - static_cast<float>(top));
-      resampled_[static_cast<std::size_t>(y * step + x)] = static_cast<uchar>(value + 0.5F);
+  const auto placeOf = [&](int i, float middle, int count) -> Place {
+    const float at = middle + static_cast<float>(i - radius) / scale;
+    const int units = cvRound((1 << kBits) * std::clamp(at, 0.0F, static_cast<float>(count - 1)));
+    const int before = units >> kBits;
+    return {before, std::min(before + 1, count - 1), units - (before << kBits)};
+  };
+  const auto between = [](int a, int b, int part) { return (a << kBits) + part * (b - a); };
+  const int side = 2 * radius + 2;
+  Place columns[Window::kMaxSide + 3];
+  for (int x = 0; x < side; ++x) columns[x] = placeOf(x, center.x, image.cols);
+  for (int y = 0; y < side; ++y) {
+    const Place row = placeOf(y, center.y, image.rows);
+    const auto* upper = image.ptr<uchar>(row.before);
+    const auto* lower = image.ptr<uchar>(row.after);
+    uchar* out = &copy_[static_cast<std::size_t>(y * stepOf(side))];
+    for (int x = 0; x < side; ++x) {
+      const auto [left, right, part] = columns[x];
+      const int value = between(between(upper[left], upper[right], part),
+                                between(lower[left], lower[right], part),
+                                row.part);
+      out[x] = static_cast<uchar>((value + (1 << (2 * kBits - 1))) >> (2 * kBits));
     }
   }
-  return {resampled_.data(), step, 0, 0};
+  return {copy_.data(), stepOf(side), 0, 0};
 }
 
 bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float scale) {
   if (!contains(image, center)) return false;
+  if (std::abs(1.0F / scale - 1.0F) * static_cast<float>(radius_) < kMinStretch_px) scale = 1.0F;
   const Patch patch = patchAround(image, center, radius_ + 1, scale);
   return invertNormalMatrix(kernels_->takeWindow(patch, window_));
 }
@@ -171,7 +194,7 @@ cv::Point2f TrackingWindow::stepFrom(const Patch& patch) {
 bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& center) {
   const auto min_px2 = static_cast<float>(stop.min_step_px * stop.min_step_px);
   cv::Point2f found = center;
-  for (int i = 0; i < stop.max_iterations; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     if (!contains(image, found)) return false;
     const cv::Point2f step = stepFrom(patchAround(image, found, radius_, 1.0F));
     found += step;
@@ -184,12 +207,12 @@ bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& c
 }
 
 FeatureTracker::FeatureTracker(const Config& config)
-    : config_(config), window_(config.window_radius_px) {}
+    : config_(config), window_(config.window_radius_px), small_window_(config.window_radius_px) {}
 
 void FeatureTracker::setDetail(double detail_px) {
   detail_px_ = detail_px;
   const int radius_px = std::min(cvCeil(detail_px * config_.window_radius_px), kMaxRadius_px);
-  if (radius_px != window_.radius()) window_ = TrackingWindow(radius_px);
+  if (radius_px != window_.radius()) window_ = small_window_ = TrackingWindow(radius_px);
 }
 
 bool FeatureTracker::track(const ImagePyramid& from,
@@ -201,17 +224,18 @@ bool FeatureTracker::track(const ImagePyramid& from,
   cv::Point2f found = end;
   TrackingWindow::Stop near = kStop;
   near.max_shift_px = kNear * detail_px_ * config_.window_radius_px;
-  if (!window_.take(from[0], start, scale) || !window_.find(to[0], near, found)) {
+  if (!window_.take(from[0], start, scale)) return false;
+  if (!window_.find(to[0], near, found)) {
     for (std::size_t level = std::min(from.size(), to.size()) - 1; level > 0; --level) {
       const float at_level = scaleOf(level);
       cv::Point2f scaled = at_level * found;
       // Features that are not found in a small image are left to the larger ones.
-      if (window_.take(from[level], at_level * start, scale) &&
-          window_.find(to[level], kRoughly, scaled)) {
+      if (small_window_.take(from[level], at_level * start, scale) &&
+          small_window_.find(to[level], kRoughly, scaled)) {
         found = scaled / at_level;
       }
     }
-    if (!window_.take(from[0], start, scale) || !window_.find(to[0], kStop, found)) return false;
+    if (!window_.find(to[0], kStop, found)) return false;
   }
   if (window_.correlation() < kMinCorrelation) return false;
   end = found;

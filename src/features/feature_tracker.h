@@ -20,7 +20,6 @@ namespace rotrocc {
 class TrackingWindow {
  public:
   struct Stop {
-    int max_iterations;
     double min_step_px;   ///< iterations stop at a shorter step
     double max_shift_px;  ///< the search fails farther from its start
   };
@@ -44,6 +43,7 @@ class TrackingWindow {
 
  private:
   Patch patchAround(const cv::Mat& image, const cv::Point2f& center, int radius, float scale);
+  Patch resample(const cv::Mat& image, const cv::Point2f& center, int radius, float scale);
   bool describeContrast(const WindowSums& sums);
   bool invertNormalMatrix(const WindowSums& sums);
   cv::Point2f stepFrom(const Patch& patch);
@@ -51,7 +51,7 @@ class TrackingWindow {
   const Kernels* kernels_;
   int radius_, side_;
   Window window_ = {};
-  std::vector<uchar> resampled_;      // a patch that extends beyond the image, or of another scale
+  std::vector<uchar> copy_;           // a patch that extends beyond the image, or of another scale
   cv::Point2d mean_gradient_;         // [gray levels / px]
   double mean_contrast_ = 0.0;        // [gray levels]
   double contrast_square_ = 0.0;      // sum of squares about the mean
@@ -91,7 +91,7 @@ class FeatureTracker {
  private:
   Config config_;
   double detail_px_ = 1.0;
-  TrackingWindow window_;
+  TrackingWindow window_, small_window_;  // in the first image of a pyramid, in a smaller one
 };
 
 }  // namespace rotrocc
