@@ -28,7 +28,7 @@ constexpr double kRoom = 4.0;
 constexpr double kLeastRoom = 0.5 * kRoom;
 
 /// Pixels of an image that are compared, about.
-constexpr double kSample = 2500.0;
+constexpr double kSample = 1000.0;
 
 /// What is left of the variance of white noise after halving, (70 / 256)^2, and of its difference
 /// to the pixels that are kept, 1 - 2 * 36 / 256 + (70 / 256)^2.

@@ -10,7 +10,7 @@ namespace rotrocc {
 
 double noiseVariance(const cv::Mat& image, std::vector<int>& responses) {
   constexpr double kRounding = 1.0 / 12.0;
-  constexpr double kPixels = 2000.0;  // known to a few percent
+  constexpr double kPixels = 1000.0;  // known to 5 percent
   constexpr double kMaskSquares = 36.0;
   constexpr int kApart = 2;  // neighbors share noise if the image was interpolated to rectify it
   const int step = std::max(1, cvFloor(std::sqrt(static_cast<double>(image.total()) / kPixels)));
