@@ -142,7 +142,8 @@ ReprojectionProblem::NormalMatrix ReprojectionProblem::normalMatrix(
       shared.col(cells_[b * kSize + lane]) += of_features.col(static_cast<Eigen::Index>(lane));
     }
   }
-  const NormalMatrix explained = explainedBy(shared, cell_ratio_, smooth_ratio_);
+  NormalMatrix explained = NormalMatrix::Zero();
+  if (has_shared) explained = explainedBy(shared, cell_ratio_, smooth_ratio_);
   NormalMatrix normal = NormalMatrix::Zero();
   for (int i = first; i < kColumns; ++i) {
     for (int j = i; j < kColumns; ++j) {
