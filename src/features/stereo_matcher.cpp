@@ -149,7 +149,7 @@ std::optional<RowMatch> LeftWindow::searchRow(const uchar* pixels,
                                               RowBuffers& buffers) const {
   const int stride = count + W::kStride + kMaxShorts;
   std::int16_t* const strip = holding(W::kSide * stride + kMaxShorts, buffers.strip);
-  kernels_.widenPartRows(pixels, step, count + W::kSide - 1, strip, stride);
+  kernels_.widenRows(pixels, step, count + W::kSide - 1, strip, stride);
   std::int32_t* const scratch = holding(W::scratchOf(count), buffers.scratch);
   float* const correlations = holding(count + kMaxShorts, buffers.correlations);
   constexpr auto kNoise = static_cast<float>(W::kPartPixels * W::kPartPixels * kRounding);
@@ -161,11 +161,7 @@ std::optional<RowMatch> LeftWindow::searchRow(const uchar* pixels,
   int* const columns = holding(count, buffers.peaks);
   const int peaks = kernels_.findPeaks(correlations, 0, count - 2, 1, min_correlation, columns);
   double* const costs = holding(peaks, buffers.costs);
-  const auto compareAt = [&](int column) {
-    std::int16_t window[W::kSide * W::kStride];
-    kernels_.widenRows(pixels + column, step, W::kStride, window, W::kStride);
-    return compare(window, W::kStride);
-  };
+  const auto compareAt = [&](int column) { return compare(strip + column, stride); };
   int best = -1;
   Compared of_best = {2.0, 0.0};
   for (int i = 0; i < peaks; ++i) {
@@ -179,15 +175,11 @@ std::optional<RowMatch> LeftWindow::searchRow(const uchar* pixels,
   if (best < 0) return std::nullopt;
   Compared before = compareAt(best - 1);
   Compared after = compareAt(best + 1);
-  if (before.cost < of_best.cost && before.cost <= after.cost && best >= 2) {
-    --best;
-    after = of_best;
-    of_best = before;
+  const int next = after.cost < before.cost ? best + 1 : best - 1;
+  if (std::min(before.cost, after.cost) < of_best.cost && next >= 1 && next + 1 < count) {
+    best = next;
     before = compareAt(best - 1);
-  } else if (after.cost < of_best.cost && best + 2 < count) {
-    ++best;
-    before = of_best;
-    of_best = after;
+    of_best = compareAt(best);
     after = compareAt(best + 1);
   }
   if (of_best.cost > kMaxCost) return std::nullopt;

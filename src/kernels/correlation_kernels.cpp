@@ -69,15 +69,6 @@ void widenRows(
   }
 }
 
-void widenPartRows(
-    const std::uint8_t* pixels, std::ptrdiff_t step, int columns, std::int16_t* strip, int stride) {
-  for (const int y : W::kPartRows) {
-    for (int x = 0; x < columns; x += kShorts) {
-      v_store(strip + y * stride + x, loadBytes(pixels + y * step + x));
-    }
-  }
-}
-
 void sampleRows(const Patch& patch, int columns, std::int16_t* strip, int stride) {
   samplePatch<W::kSampleBits>(patch, columns, W::kSide, strip, stride);
 }

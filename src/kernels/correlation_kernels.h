@@ -40,10 +40,6 @@ namespace ROTROCC_INSTRUCTIONS {
 void widenRows(
     const std::uint8_t* pixels, std::ptrdiff_t step, int columns, std::int16_t* strip, int stride);
 
-/// As widenRows(), but only the rows that correlateParts() compares.
-void widenPartRows(
-    const std::uint8_t* pixels, std::ptrdiff_t step, int columns, std::int16_t* strip, int stride);
-
 /// Samples a patch between its pixels, in units of 1 / 2^kSampleBits.
 void sampleRows(const Patch& patch, int columns, std::int16_t* strip, int stride);
 

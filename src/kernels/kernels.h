@@ -19,7 +19,6 @@ struct Kernels {
   decltype(&ROTROCC_INSTRUCTIONS::highestOfColumns) highestOfColumns;
   decltype(&ROTROCC_INSTRUCTIONS::findPeaks) findPeaks;
   decltype(&ROTROCC_INSTRUCTIONS::widenRows) widenRows;
-  decltype(&ROTROCC_INSTRUCTIONS::widenPartRows) widenPartRows;
   decltype(&ROTROCC_INSTRUCTIONS::sampleRows) sampleRows;
   decltype(&ROTROCC_INSTRUCTIONS::correlateParts) correlateParts;
   decltype(&ROTROCC_INSTRUCTIONS::multiplyWindow) multiplyWindow;
