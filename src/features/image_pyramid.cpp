@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include <opencv2/imgproc.hpp>
+
 #include "kernels/kernels.h"
 
 namespace rotrocc {
@@ -70,21 +72,10 @@ void halve(const cv::Mat& image, cv::Mat& half) {
 }
 
 void enlarge(const cv::Mat& image, cv::Mat& large) {
-  const auto meanOf = [](int a, int b) { return static_cast<uchar>((a + b + 1) / 2); };
-  large.create(2 * image.rows, 2 * image.cols, CV_8UC1);
-  for (int y = 0; y < image.rows; ++y) {
-    const auto* row = image.ptr<uchar>(y);
-    const auto* next = image.ptr<uchar>(std::min(y + 1, image.rows - 1));
-    auto* out = large.ptr<uchar>(2 * y);
-    auto* below = large.ptr<uchar>(2 * y + 1);
-    for (int x = 0; x < image.cols; ++x) {
-      const int right = std::min(x + 1, image.cols - 1);
-      out[2 * x] = row[x];
-      out[2 * x + 1] = meanOf(row[x], row[right]);
-      below[2 * x] = meanOf(row[x], next[x]);
-      below[2 * x + 1] = meanOf(out[2 * x + 1], meanOf(next[x], next[right]));
-    }
-  }
+  const cv::Matx23d half(0.5, 0.0, 0.0, 0.0, 0.5, 0.0);
+  constexpr int kFlags = cv::INTER_LINEAR | cv::WARP_INVERSE_MAP;
+  cv::warpAffine(
+      image, large, half, {2 * image.cols, 2 * image.rows}, kFlags, cv::BORDER_REPLICATE);
 }
 
 }  // namespace rotrocc
