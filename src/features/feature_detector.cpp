@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/image_grid.h"
 #include "features/image_noise.h"
 #include "kernels/kernels.h"
 
@@ -204,15 +205,11 @@ void FeatureDetector::sortByRank() {
 
 /// Counts for each of the candidates, which begin with the strongest, those before it in its cell.
 void FeatureDetector::rankInCells(const cv::Size& size) {
-  const double area_px2 = static_cast<double>(size.area()) / config_.max_features;
-  const int side_px = std::max(1, cvRound(std::sqrt(area_px2)));
-  const int columns = (size.width + side_px - 1) / side_px;
-  const int rows = (size.height + side_px - 1) / side_px;
-  cell_counts_.assign(static_cast<std::size_t>(columns * rows), 0);
-  for (Candidate& c : candidates_) {
-    const int cell = (c.y / side_px) * columns + c.x / side_px;
-    c.rank = cell_counts_[static_cast<std::size_t>(cell)]++;
-  }
+  const double side_px = std::sqrt(static_cast<double>(size.area()) / config_.max_features);
+  const ImageGrid grid(
+      size.width, size.height, cvCeil(size.width / side_px), cvCeil(size.height / side_px));
+  cell_counts_.assign(grid.count(), 0);
+  for (Candidate& c : candidates_) c.rank = cell_counts_[grid.cell(c.x, c.y)]++;
 }
 
 }  // namespace rotrocc

@@ -152,7 +152,7 @@ TEST(FeatureDetectorTest, FindsTheSameAtATenthOfTheContrast) {
 TEST(FeatureDetectorTest, HasAboutOneCellForEachFeatureInStrongAndWeakTexture) {
   cv::Mat image = textureImage({300, 200}, 50.0);
   textureImage({150, 200}, 8.0).copyTo(image(cv::Rect(150, 0, 150, 200)));
-  for (const auto& [features, side_px] : {std::pair(24, 50), {60, 32}, {150, 20}}) {
+  for (const auto& [features, side_px] : {std::pair(24, 50), {96, 25}, {150, 20}}) {
     FeatureDetector::Config config;
     config.max_features = features;
     std::set<std::pair<int, int>> cells;
