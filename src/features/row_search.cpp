@@ -46,31 +46,25 @@ RowSearch::RowSearch(const CorrespondenceFinderConfig& config)
     : matcher_(config.stereo_matcher), tracker_(config.feature_tracker) {}
 
 std::vector<float> RowSearch::search(const StereoCamera& camera, const Keyframe& keyframe) {
-  std::vector<cv::Point2f> sample_px;
-  const std::size_t step = std::max<std::size_t>(1, keyframe.corners.size() / kCorners);
-  for (std::size_t i = 0; i < keyframe.corners.size(); i += step) {
-    sample_px.push_back(keyframe.corners[i]);
-  }
   tracker_.setDetail(camera.detail_px);
   const cv::Mat& left = keyframe.frame->left.front();
   const cv::Mat& right = keyframe.frame->right.front();
   const auto detail_px = static_cast<float>(camera.detail_px);
-  std::vector<CornerOffset> found(sample_px.size());
-  for (int rows = -kMaxRows; rows <= kMaxRows; ++rows) {
-    // Matches that leave their row were found in a wrong one.
-    const float lower_px = static_cast<float>(rows) * detail_px;
-    const RectifiedImages images = {left, right, camera, lower_px};
-    for (std::size_t i = 0; i < sample_px.size(); ++i) {
-      const auto match = matcher_.match(images, sample_px[i]);
-      if (!match) continue;
-      cv::Point2f point = sample_px[i] + cv::Point2f(-match->disparity_px, lower_px);
-      if (!tracker_.locate(left, right, sample_px[i], point)) continue;
-      found[i].add((point.y - sample_px[i].y) / detail_px, static_cast<float>(rows));
-    }
-  }
   std::vector<float> offsets_px;
-  for (const CornerOffset& of_corner : found) {
-    if (of_corner.isUnique()) offsets_px.push_back(detail_px * of_corner.nearest_px);
+  const std::size_t step = std::max<std::size_t>(1, keyframe.corners.size() / kCorners);
+  for (std::size_t i = 0; i < keyframe.corners.size(); i += step) {
+    const cv::Point2f& corner = keyframe.corners[i];
+    CornerOffset found;
+    for (int rows = -kMaxRows; rows <= kMaxRows; ++rows) {
+      // Matches that leave their row were found in a wrong one.
+      const float lower_px = static_cast<float>(rows) * detail_px;
+      const auto match = matcher_.match({left, right, camera, lower_px}, corner);
+      if (!match) continue;
+      cv::Point2f point = corner + cv::Point2f(-match->disparity_px, lower_px);
+      if (!tracker_.locate(left, right, corner, point)) continue;
+      found.add((point.y - corner.y) / detail_px, static_cast<float>(rows));
+    }
+    if (found.isUnique()) offsets_px.push_back(detail_px * found.nearest_px);
   }
   return offsets_px;
 }
