@@ -71,20 +71,17 @@ std::optional<BiasMeasurement> BiasMeter::measure(const StereoCamera& camera,
     const double step_px = bias.weighted / bias.information;
     if (!std::isfinite(step_px)) return std::nullopt;
     const double change_px = std::clamp(step_px, -kLongestStep_px, kLongestStep_px);
-    change(bias.motion + bias.motion_by_bias * change_px, change_px);
+    const Vector6d motion = bias.motion + bias.motion_by_bias * change_px;
+    T_keyframe_cur_.linear() = expRotation(motion.head<3>()) * T_keyframe_cur_.linear();
+    T_keyframe_cur_.translation() += motion.tail<3>();
+    camera_.cx_right += change_px;
+    triangulate(camera_, features_);
     if (std::abs(change_px) < kSettled_px) break;
   }
   if (features_.size() < kLeastFeatures) return std::nullopt;
   auto measurement = describe(variance_px2);
   if (measurement) measurement->bias_px = camera_.cx_right - camera.cx_right;
   return measurement;
-}
-
-void BiasMeter::change(const Vector6d& motion, double bias_px) {
-  T_keyframe_cur_.linear() = expRotation(motion.head<3>()) * T_keyframe_cur_.linear();
-  T_keyframe_cur_.translation() += motion.tail<3>();
-  camera_.cx_right += bias_px;
-  triangulate(camera_, features_);
 }
 
 /// Sets the problem of the current step. Returns the variance of its residuals.

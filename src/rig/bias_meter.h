@@ -34,7 +34,6 @@ class BiasMeter {
 
  private:
   double linearize();
-  void change(const Vector6d& motion, double bias_px);
   std::optional<BiasMeasurement> describe(double variance_px2);
 
   // The current step of one measurement, reused.

@@ -79,8 +79,7 @@ void DelayFilter::add(const StereoCamera& camera,
   information(kDelay, kDelay) += variance_ / std::pow(kPriorDelay * dt_s, 2);
   const auto llt = information.llt();
   solution_.head<kUnknowns>() = llt.solve(normal_.topRightCorner<kUnknowns, 1>());
-  using Vector = Eigen::Matrix<double, kUnknowns, 1>;
-  const double variance_s2 = variance_ * llt.solve(Vector::Unit(kDelay))[kDelay];
+  const double variance_s2 = variance_ * llt.solve(Matrix::Identity())(kDelay, kDelay);
   delay_.estimated_s = solution_[kDelay];
   delay_.sigma_s = std::sqrt((1.0 + count_ / kIndependent) * variance_s2);
   const double sigmas = delay_.estimated_s / delay_.sigma_s;
