@@ -106,9 +106,6 @@ class LeftWindow {
   };
 
   void describe() {
-    for (int y = 0; y < W::kSide; ++y) {
-      std::fill_n(values_ + y * W::kStride + W::kSide, W::kStride - W::kSide, std::int16_t{0});
-    }
     const ProductSums own = kernels_.multiplyWindow(values_, values_, W::kStride);
     sum_ = own.b;
     variance_ = varianceOf(own);

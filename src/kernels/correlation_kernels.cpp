@@ -119,9 +119,9 @@ ProductSums multiplyWindow(const std::int16_t* window, const std::int16_t* strip
   for (int y = 0; y < W::kSide; ++y, window += W::kStride, strip += stride) {
     for (int x = 0; x < W::kStride; x += kShorts) {
       const Shorts mask = vx_load(kMask + x);
-      const Shorts values = vx_load(strip + x);
+      const Shorts values = vx_load(strip + x) & mask;
       minus_b += v_dotprod(values, mask);
-      bb += v_dotprod(values & mask, values);
+      bb += v_dotprod(values, values);
       ab += v_dotprod(values, vx_load(window + x));
     }
   }

@@ -55,7 +55,7 @@ float correlateParts(const std::int16_t* window,
                      std::int32_t* scratch,
                      float* correlations);
 
-/// For a whole window; `strip` begins with it. `window` must be zero beyond its side.
+/// For a whole window; `strip` begins with it.
 ProductSums multiplyWindow(const std::int16_t* window, const std::int16_t* strip, int stride);
 
 }  // namespace ROTROCC_INSTRUCTIONS
