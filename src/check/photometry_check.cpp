@@ -215,8 +215,7 @@ class PhotometryCheck : public PairCheck {
     const auto pixels = static_cast<double>(image.total());
     cv::Scalar mean, deviation;
     cv::meanStdDev(image, mean, deviation);
-    std::vector<int> buffer;
-    const double noise = std::sqrt(noiseVariance(image, buffer));
+    const double noise = std::sqrt(noiseVariance(image));
     return {mean[0],
             noise,
             noise / std::max(deviation[0], 1e-9),

@@ -79,8 +79,7 @@ class ViewCheck : public PairCheck {
     cv::absdiff(image, last, difference);
     const cv::Mat_<float> changes = cellMeans(difference, grid);
     const cv::Mat_<float> textures = detailOf(image, grid);
-    std::vector<int> buffer;
-    const auto noise = static_cast<float>(kOfDifference * std::sqrt(noiseVariance(image, buffer)));
+    const auto noise = static_cast<float>(kOfDifference * std::sqrt(noiseVariance(image)));
     const cv::Mat textured = textures >= kOverNoise * noise;
     const cv::Mat moved = kStill * textures;
     const cv::Mat still = textured & (changes.mul(changes) < moved.mul(moved) + noise * noise);

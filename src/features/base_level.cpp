@@ -53,11 +53,9 @@ double lossOf(const cv::Mat& image, const cv::Mat& half) {
 }
 
 /// Of an image, by the two smaller ones, each half of the previous one; none if they show nothing.
-std::optional<double> sharpnessOf(const cv::Mat& image,
-                                  const cv::Mat* smaller,
-                                  std::vector<int>& buffer) {
+std::optional<double> sharpnessOf(const cv::Mat& image, const cv::Mat* smaller) {
   constexpr double kLeast = 0.01;
-  const double noise = kNoiseOfLoss * noiseVariance(image, buffer);
+  const double noise = kNoiseOfLoss * noiseVariance(image);
   const double lost = lossOf(image, smaller[0]) - noise;
   const double next = lossOf(smaller[0], smaller[1]) - kNoiseOfHalf * noise;
   if (!(next > kNoiseOfHalf * noise)) return std::nullopt;
@@ -90,7 +88,7 @@ void BaseLevel::observe(const cv::Mat& image, const ImagePyramid& pyramid) {
 }
 
 void BaseLevel::observeLevel(const cv::Mat& image, const cv::Mat* smaller) {
-  const auto sharpness = sharpnessOf(image, smaller, noise_);
+  const auto sharpness = sharpnessOf(image, smaller);
   if (!sharpness) return;
   images_[level_] = std::min(images_[level_] + 1, kImages);
   log_sharpness_[level_] += (std::log(*sharpness) - log_sharpness_[level_]) / images_[level_];

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -54,7 +53,6 @@ class BaseLevel {
   std::array<int, kMaxLevel + 1> images_ = {};
   std::array<double, kMaxLevel + 1> log_sharpness_ = {};  // averages over the images
   std::array<bool, kMaxLevel + 1> is_soft_ = {}, is_empty_ = {};
-  std::vector<int> noise_;  // buffer of noiseVariance()
 };
 
 }  // namespace rotrocc

@@ -35,16 +35,13 @@ constexpr int kScales = 4;
 /// that pass, the strongest are taken.
 constexpr double kFastOverNoise = 4.0;
 
-constexpr bool kEachOthersNearest = true;
-
 struct Described {
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;
 };
 
 Described describe(const cv::Mat& image, const FeatureMask& mask) {
-  std::vector<int> responses;
-  const double sigma = std::sqrt(noiseVariance(image, responses));
+  const double sigma = std::sqrt(noiseVariance(image));
   const int count = std::min(static_cast<int>(image.total()) / kPixels, kMaxFeatures);
   const auto orb = cv::ORB::create(count, kScaleStep, kScales);
   orb->setFastThreshold(std::max(1, cvRound(kFastOverNoise * sigma)));
@@ -65,7 +62,7 @@ Correspondences matchDescriptors(const StereoCamera& camera,
   const Described in_earlier = describe(keyframe.frame->left.front(), keyframe.frame->left_mask);
   if (in_earlier.keypoints.empty()) return {};
   std::vector<cv::DMatch> matches;
-  cv::BFMatcher(cv::NORM_HAMMING, kEachOthersNearest)
+  cv::BFMatcher(cv::NORM_HAMMING, true)  // each other's nearest
       .match(in_earlier.descriptors, in_current.descriptors, matches);
   std::stable_sort(matches.begin(), matches.end());  // by the distance
   const RectifiedImages images = {

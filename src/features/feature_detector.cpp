@@ -124,13 +124,18 @@ void FeatureDetector::detect(const cv::Mat& image,
   const double share_px2 = static_cast<double>(image.total()) / config_.max_features;
   const double radius_px = std::max(kOfFeature * std::sqrt(share_px2), kMinRadius_px * detail_px);
   radius_px_ = std::min(cvRound(radius_px), kMaxRadius_px);
-  min_response_ = minResponse(noiseVariance(image, noise_));
-  candidates_.clear();
+  min_response_ = minResponse(noiseVariance(image));
   findCandidates(image, mask);
-  selectByCells(image.size(), static_cast<std::size_t>(candidates * config_.max_features), corners);
+  sortByCells(image.size());
+  const auto most = static_cast<std::size_t>(candidates * config_.max_features);
+  candidates_.resize(std::min(most, candidates_.size()));
+  for (const Candidate& c : candidates_) {
+    corners.emplace_back(static_cast<float>(c.x), static_cast<float>(c.y));
+  }
 }
 
 void FeatureDetector::findCandidates(const cv::Mat& image, const FeatureMask& mask) {
+  candidates_.clear();
   const int margin = radius_px_ / kRowStep;
   const int first_row = (kBorder_px + kRowStep - 1) / kRowStep;
   const int last_row = (image.rows - kBorder_px + kRowStep - 1) / kRowStep;
@@ -174,19 +179,18 @@ void FeatureDetector::searchBand(int width,
   }
 }
 
-void FeatureDetector::selectByCells(const cv::Size& size,
-                                    std::size_t max_count,
-                                    std::vector<cv::Point2f>& corners) {
+/// Sorts the candidates by their number in their cell, then by strength.
+void FeatureDetector::sortByCells(const cv::Size& size) {
   float strongest = 0.0F;
   for (const Candidate& c : candidates_) strongest = std::max(strongest, c.response);
   for (Candidate& c : candidates_) c.rank = strengthOf(strongest) - strengthOf(c.response);
   sortByRank();
-  rankInCells(size);
+  const double side_px = std::sqrt(static_cast<double>(size.area()) / config_.max_features);
+  const ImageGrid grid(
+      size.width, size.height, cvCeil(size.width / side_px), cvCeil(size.height / side_px));
+  cell_counts_.assign(grid.count(), 0);
+  for (Candidate& c : candidates_) c.rank = cell_counts_[grid.cell(c.x, c.y)]++;
   sortByRank();
-  candidates_.resize(std::min(max_count, candidates_.size()));
-  for (const Candidate& c : candidates_) {
-    corners.emplace_back(static_cast<float>(c.x), static_cast<float>(c.y));
-  }
 }
 
 /// Equal ones keep their order.
@@ -201,15 +205,6 @@ void FeatureDetector::sortByRank() {
     candidates_.insert(candidates_.end(), of_rank.begin(), of_rank.end());
     of_rank.clear();
   }
-}
-
-/// Counts for each of the candidates, which begin with the strongest, those before it in its cell.
-void FeatureDetector::rankInCells(const cv::Size& size) {
-  const double side_px = std::sqrt(static_cast<double>(size.area()) / config_.max_features);
-  const ImageGrid grid(
-      size.width, size.height, cvCeil(size.width / side_px), cvCeil(size.height / side_px));
-  cell_counts_.assign(grid.count(), 0);
-  for (Candidate& c : candidates_) c.rank = cell_counts_[grid.cell(c.x, c.y)]++;
 }
 
 }  // namespace rotrocc

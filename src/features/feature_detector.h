@@ -71,11 +71,8 @@ class FeatureDetector {
 
   void findCandidates(const cv::Mat& image, const FeatureMask& mask);
   void searchBand(int width, const cv::Range& rows, int top, const FeatureMask& mask);
-  void selectByCells(const cv::Size& size,
-                     std::size_t max_count,
-                     std::vector<cv::Point2f>& corners);
+  void sortByCells(const cv::Size& size);
   void sortByRank();
-  void rankInCells(const cv::Size& size);
 
   Config config_;
   CornerResponse corner_response_;
@@ -85,7 +82,6 @@ class FeatureDetector {
   std::vector<Candidate> candidates_;
   std::vector<std::vector<Candidate>> of_ranks_;
   std::vector<int> cell_counts_;
-  std::vector<int> noise_;  // responses to a mask
   float min_response_ = 0.0F;
   int radius_px_ = kMaxRadius_px;
 };

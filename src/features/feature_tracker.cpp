@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "features/image_noise.h"
 #include "features/patch.h"
@@ -38,16 +37,14 @@ constexpr double kNear = 0.5;
 /// Correlation of a window with the place where it is found. Most wrong places have less.
 constexpr double kMinCorrelation = 0.6;
 
-constexpr double kAnywhere_px = std::numeric_limits<double>::infinity();
-
 /// Gauss-Newton converges within a few iterations of a level.
 constexpr int kMaxIterations = 6;
 
 /// Steps below a fraction of the flow's noise, about 0.1 px, gain nothing.
-constexpr TrackingWindow::Stop kStop = {0.04, kAnywhere_px};
+constexpr TrackingWindow::Stop kStop = {0.04};
 
 /// The small images only provide a start for the large one.
-constexpr TrackingWindow::Stop kRoughly = {0.12, kAnywhere_px};
+constexpr TrackingWindow::Stop kRoughly = {0.12};
 
 /// Scale of pixel coordinates in a level of the pyramid.
 float scaleOf(std::size_t level) {

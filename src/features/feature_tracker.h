@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -20,8 +20,9 @@ namespace rotrocc {
 class TrackingWindow {
  public:
   struct Stop {
-    double min_step_px;   ///< iterations stop at a shorter step
-    double max_shift_px;  ///< the search fails farther from its start
+    double min_step_px;  ///< iterations stop at a shorter step
+    /// The search fails farther from its start.
+    double max_shift_px = std::numeric_limits<double>::infinity();
   };
 
   /// The window is a square of side 2 radius + 1; the radius is at most 25 px.

@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include "common/median.h"
 
 namespace rotrocc {
 
-double noiseVariance(const cv::Mat& image, std::vector<int>& responses) {
+double noiseVariance(const cv::Mat& image) {
   constexpr double kRounding = 1.0 / 12.0;
   constexpr double kPixels = 1000.0;  // known to 5 percent
   constexpr double kMaskSquares = 36.0;
   constexpr int kApart = 2;  // neighbors share noise if the image was interpolated to rectify it
   const int step = std::max(1, cvFloor(std::sqrt(static_cast<double>(image.total()) / kPixels)));
+  thread_local std::vector<int> responses;
   responses.clear();
   for (int y = kApart; y + kApart < image.rows; y += step) {
     const auto* above = image.ptr<uchar>(y - kApart);
@@ -37,8 +39,7 @@ bool isNoise(const cv::Mat& image) {
   cv::Scalar mean;
   cv::Scalar deviation;
   cv::meanStdDev(image, mean, deviation);
-  std::vector<int> buffer;
-  return deviation[0] * deviation[0] < kOverNoise * kOverNoise * noiseVariance(image, buffer);
+  return deviation[0] * deviation[0] < kOverNoise * kOverNoise * noiseVariance(image);
 }
 
 }  // namespace rotrocc

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include <opencv2/core.hpp>
 
 namespace rotrocc {
@@ -13,8 +11,8 @@ constexpr float kMinTexture = 0.1F;
 
 /// Variance of the noise of an image (CV_8UC1) in gray levels^2, at least that of rounding to whole
 /// gray levels: from the median response to the mask of Immerkaer ("Fast Noise Variance
-/// Estimation", 1996), which is zero where the image is a plane. `responses` is a buffer.
-double noiseVariance(const cv::Mat& image, std::vector<int>& responses);
+/// Estimation", 1996), which is zero where the image is a plane.
+double noiseVariance(const cv::Mat& image);
 
 /// Whether the gray levels of an image (CV_8UC1) hardly vary more than their noise, as behind a
 /// covered lens.
