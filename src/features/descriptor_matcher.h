@@ -9,7 +9,7 @@ namespace rotrocc {
 
 /// Finds correspondences without a prediction, anywhere in the image: oriented binary descriptors
 /// (ORB, Rublee et al. 2011) that are each other's nearest neighbor. They are exact to a pixel or
-/// two, and many are wrong. It takes 20 to 50 ms.
+/// two, and many are wrong. It takes about 40 ms.
 ///
 /// Returns what is seen in the left images of both frames and has a depth in the current one.
 Correspondences matchDescriptors(const StereoCamera& camera,

@@ -11,7 +11,7 @@ namespace rotrocc {
 
 double noiseVariance(const cv::Mat& image) {
   constexpr double kRounding = 1.0 / 12.0;
-  constexpr double kPixels = 1000.0;  // known to 5 percent
+  constexpr double kPixels = 1000.0;  // so the deviation is known to 4 %
   constexpr double kMaskSquares = 36.0;
   constexpr int kApart = 2;  // neighbors share noise if the image was interpolated to rectify it
   const int step = std::max(1, cvFloor(std::sqrt(static_cast<double>(image.total()) / kPixels)));

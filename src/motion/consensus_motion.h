@@ -9,11 +9,11 @@
 
 namespace rotrocc {
 
-/// Reprojection errors of features that agree on a motion, in details of the images. Of tracked
-/// features: about the limit of stage 1, twice as much confuses a slow motion with that of an
-/// object ahead. Of features matched by descriptors, which are taken from images of up to half the
-/// size.
+// Largest reprojection errors of features that agree on a motion, in details of the images.
+
+/// For tracked features: about the limit of stage 1. Twice as much follows an object ahead.
 constexpr double kOfTracked = 0.7;
+/// For features matched by descriptors, which are taken from images of up to half the size.
 constexpr double kOfRecognized = 3.0;
 
 /// The motion, current to keyframe, that most features agree on: perspective-three-point in a
