@@ -73,7 +73,7 @@ void RigSampler::observe(const CheckedPair& pair) {
   PairSamples samples = {pair.time_s, result.flow_noise_px, result.disparity_bias.applied_px, {}};
   samples.late_s = result.right_delay.applied_s;
   last_points_.clear();
-  tracker_.setDetail(result.detail_px());
+  tracker_.setWindowScale(result.detail_px());
   const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPerPair);
   for (std::size_t i = 0; i < pair.features.size(); i += step) {
     const Correspondence& feature = pair.features[i];

@@ -21,11 +21,14 @@ constexpr double kHysteresis = 1.2;
 
 /// The window of the tracker.
 constexpr double kWindow_px2 = 9.0 * 9.0;
-/// Room of a feature: a square of two windows.
-constexpr double kRoom = 4.0;
-/// Sharp images with less room are doubled: there are too few windows for the features. That halves
-/// the error of KITTI's images at 320 px and each third pair. At 160 px there is no motion without.
-constexpr double kLeastRoom = 0.5 * kRoom;
+/// Windows that a feature needs in a halved image: with 3, errors of KITTI and EuRoC at each third
+/// pair are a quarter larger than without halving.
+constexpr double kRoom = 3.5;
+/// Images with fewer are doubled, which halves the error of KITTI's images at 320 px and each third
+/// pair. At 160 px there is no motion without. A window of a doubled image has half as many
+/// details: too few in a soft one.
+constexpr double kLeastRoom = 3.0;
+constexpr double kLeastRoomIfSoft = 2.0;
 
 /// Pixels of an image that are compared, about.
 constexpr double kSample = 1000.0;
@@ -71,20 +74,21 @@ void BaseLevel::observe(const cv::Mat& image, const ImagePyramid& pyramid) {
   };
   for (level_ = 0; level_ < levels; ++level_) {
     const bool is_last = level_ + 1 == levels;
-    const double next = is_last ? 0.0 : windowsIn(pyramid[level_ + 1]);
-    if (level_ < config_.min_halvings && next >= 1.0) continue;
+    const bool has_room = !is_last && windowsIn(pyramid[level_ + 1]) >= kRoom;
+    if (level_ < config_.min_halvings && has_room) continue;
     observeLevel(level_ == 0 ? image : pyramid[level_], &pyramid[level_ + 1]);
-    if (is_last || !(is_empty_[level_] || (is_soft_[level_] && next >= kRoom))) break;
+    if (is_last || !(is_empty_[level_] || (is_soft_[level_] && has_room))) break;
   }
+  // Enlarging an image by a factor divides its sharpness by about the square of the factor.
+  const auto level = static_cast<std::size_t>(level_);
+  const double side_px = is_soft_[level] ? std::exp(-0.5 * log_sharpness_[level]) : 1.0;
+  detail_px_ = window_scale_ = std::max(1.0, side_px);
   const double windows = windowsIn(image);
-  const double least = is_soft_[0] || config_.min_halvings > 0 ? 1.0 : kLeastRoom;
-  if (level_ == 0 && windows < least) level_ = -1;
-  // Enlarging an image by a factor divides its sharpness by about the square of the factor. A sharp
-  // image that is doubled has room for kRoom windows of sqrt(windows) details.
-  const auto level = static_cast<std::size_t>(std::max(level_, 0));
-  const double of_sharp = level_ < 0 ? std::sqrt(windows) : 1.0;
-  const double side_px = is_soft_[level] ? std::exp(-0.5 * log_sharpness_[level]) : of_sharp;
-  detail_px_ = std::max(1.0, side_px);
+  if (level_ > 0 || windows >= (is_soft_[0] ? kLeastRoomIfSoft : kLeastRoom)) return;
+  level_ = -1;
+  detail_px_ *= 2.0;
+  // As large as the window of a whole image, if four of them have room for each feature.
+  window_scale_ = std::clamp(std::sqrt(windows), 1.0, detail_px_);
 }
 
 void BaseLevel::observeLevel(const cv::Mat& image, const cv::Mat* smaller) {

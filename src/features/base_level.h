@@ -39,10 +39,12 @@ class BaseLevel {
   /// -1: the doubled image.
   int level() const { return level_; }
 
-  /// Side of the smallest detail of the images at the level [px], which windows and limits are
-  /// multiples of: 1, or more if the level is soft and the next one has no room, or in a doubled
-  /// image if windows of more pixels have room.
+  /// Side of the smallest detail of the images at the level [px]: 1, or more if the level is soft
+  /// and the next one has no room, or if the image is doubled.
   double detail_px() const { return detail_px_; }
+
+  /// Scale of the windows: detail_px(), or less in a doubled image without room for them.
+  double window_scale() const { return window_scale_; }
 
  private:
   void observeLevel(const cv::Mat& image, const cv::Mat* smaller);
@@ -50,6 +52,7 @@ class BaseLevel {
   FeatureDetectorConfig config_;
   int level_ = 0;
   double detail_px_ = 1.0;
+  double window_scale_ = 1.0;
   std::array<int, kMaxLevel + 1> images_ = {};
   std::array<double, kMaxLevel + 1> log_sharpness_ = {};  // averages over the images
   std::array<bool, kMaxLevel + 1> is_soft_ = {}, is_empty_ = {};

@@ -64,10 +64,9 @@ FramePtr CorrespondenceFinder::makeFrame(const StereoPair& pair, int level) {
   return frame;
 }
 
-void CorrespondenceFinder::findCorners(const StereoCamera& camera, Keyframe& keyframe) {
+void CorrespondenceFinder::findCorners(Keyframe& keyframe) {
   const StereoFrame& frame = *keyframe.frame;
-  detector_.detect(
-      frame.left.front(), keyframe.corners, kCandidates, frame.left_mask, camera.detail_px);
+  detector_.detect(frame.left.front(), keyframe.corners, kCandidates, frame.left_mask);
 }
 
 void CorrespondenceFinder::findDepths(const StereoCamera& camera, Keyframe& keyframe) {
@@ -107,7 +106,7 @@ int CorrespondenceFinder::find(const StereoCamera& camera,
                                const StereoFrame& current,
                                const Eigen::Isometry3d& T_keyframe_cur,
                                Correspondences& features) {
-  tracker_.setDetail(camera.detail_px);
+  tracker_.setWindowScale(camera.window_scale);
   const RectifiedImages images = imagesOf(current, camera, keyframe);
   const Eigen::Isometry3d T_cur_keyframe = T_keyframe_cur.inverse();
   const double dt_s = secondsBetween(*keyframe.frame, current);

@@ -37,8 +37,7 @@ class CorrespondenceFinder {
   FramePtr makeFrame(const StereoPair& pair, int level = 0);
 
   /// Finds the corners of the keyframe's left image, more than are wanted: some have no match.
-  /// Their distance depends on the camera's detail_px.
-  virtual void findCorners(const StereoCamera& camera, Keyframe& keyframe);
+  virtual void findCorners(Keyframe& keyframe);
   /// Matches the corners in the keyframe's right image, in their order, until max_features have a
   /// depth, and triangulates these. Removes the corners that were not needed.
   virtual void findDepths(const StereoCamera& camera, Keyframe& keyframe);

@@ -116,14 +116,12 @@ FeatureDetector::FeatureDetector(const Config& config) : config_(config) {}
 void FeatureDetector::detect(const cv::Mat& image,
                              std::vector<cv::Point2f>& corners,
                              int candidates,
-                             const FeatureMask& mask,
-                             double detail_px) {
+                             const FeatureMask& mask) {
   corners.clear();
   if (std::min(image.cols, image.rows) <= 2 * (kBorder_px + kMaxRadius_px)) return;
 
   const double share_px2 = static_cast<double>(image.total()) / config_.max_features;
-  const double radius_px = std::max(kOfFeature * std::sqrt(share_px2), kMinRadius_px * detail_px);
-  radius_px_ = std::min(cvRound(radius_px), kMaxRadius_px);
+  radius_px_ = std::clamp(cvRound(kOfFeature * std::sqrt(share_px2)), kMinRadius_px, kMaxRadius_px);
   min_response_ = minResponse(noiseVariance(image));
   findCandidates(image, mask);
   sortByCells(image.size());

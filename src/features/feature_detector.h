@@ -55,12 +55,11 @@ class FeatureDetector {
   /// Finds at most max_features times `candidates` corners of `image` (CV_8UC1), at integer pixels
   /// that the mask does not exclude. The image has about max_features cells. The strongest corners
   /// of all cells come first, then the second strongest of all cells, and so on. Returns none if
-  /// the image is too small. `detail_px`: see StereoCamera.
+  /// the image is too small.
   void detect(const cv::Mat& image,
               std::vector<cv::Point2f>& corners,
               int candidates = 1,
-              const FeatureMask& mask = {},
-              double detail_px = 1.0);
+              const FeatureMask& mask = {});
 
  private:
   struct Candidate {

@@ -206,9 +206,9 @@ bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& c
 FeatureTracker::FeatureTracker(const Config& config)
     : config_(config), window_(config.window_radius_px), small_window_(config.window_radius_px) {}
 
-void FeatureTracker::setDetail(double detail_px) {
-  detail_px_ = detail_px;
-  const int radius_px = std::min(cvCeil(detail_px * config_.window_radius_px), kMaxRadius_px);
+void FeatureTracker::setWindowScale(double scale) {
+  window_scale_ = scale;
+  const int radius_px = std::min(cvCeil(scale * config_.window_radius_px), kMaxRadius_px);
   if (radius_px != window_.radius()) window_ = small_window_ = TrackingWindow(radius_px);
 }
 
@@ -220,7 +220,7 @@ bool FeatureTracker::track(const ImagePyramid& from,
   if (!contains(to[0], end)) return false;
   cv::Point2f found = end;
   TrackingWindow::Stop near = kStop;
-  near.max_shift_px = kNear * detail_px_ * config_.window_radius_px;
+  near.max_shift_px = kNear * window_scale_ * config_.window_radius_px;
   if (!window_.take(from[0], start, scale)) return false;
   if (!window_.find(to[0], near, found)) {
     for (std::size_t level = std::min(from.size(), to.size()) - 1; level > 0; --level) {

@@ -69,9 +69,8 @@ class FeatureTracker {
 
   explicit FeatureTracker(const Config& config);
 
-  /// Sets StereoCamera::detail_px of the images that are tracked, of which windows and limits are
-  /// multiples; window radii are rounded up.
-  void setDetail(double detail_px);
+  /// Sets StereoCamera::window_scale of the images that are tracked; window radii are rounded up.
+  void setWindowScale(double scale);
 
   /// Tracks the point `start` from one image to another. `scale` is the expected scale change of
   /// its window, above 1 if the point comes nearer. `end` is the prediction and becomes the result.
@@ -91,7 +90,7 @@ class FeatureTracker {
 
  private:
   Config config_;
-  double detail_px_ = 1.0;
+  double window_scale_ = 1.0;
   TrackingWindow window_, small_window_;  // in the first image of a pyramid, in a smaller one
 };
 

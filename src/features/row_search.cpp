@@ -46,7 +46,7 @@ RowSearch::RowSearch(const CorrespondenceFinderConfig& config)
     : matcher_(config.stereo_matcher), tracker_(config.feature_tracker) {}
 
 std::vector<float> RowSearch::search(const StereoCamera& camera, const Keyframe& keyframe) {
-  tracker_.setDetail(camera.detail_px);
+  tracker_.setWindowScale(camera.window_scale);
   const cv::Mat& left = keyframe.frame->left.front();
   const cv::Mat& right = keyframe.frame->right.front();
   const auto detail_px = static_cast<float>(camera.detail_px);
@@ -77,7 +77,7 @@ void RowSearch::measure(const StereoCamera& camera,
                         double row_offset_px,
                         std::vector<RowSample>& samples) {
   samples.clear();
-  tracker_.setDetail(camera.detail_px);
+  tracker_.setWindowScale(camera.window_scale);
   const std::size_t step = std::max<std::size_t>(1, features.size() / kFeatures);
   for (std::size_t i = 0; i < features.size(); i += step) {
     if (set[i] == 0) continue;

@@ -46,7 +46,7 @@ bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& fo
   // A window finds what is as far away as it reaches in the smallest image. Without a prediction,
   // many find something else so far away: they are tracked again from where they belong.
   const std::size_t halvings = start.is_prediction ? frames.current.left.size() - 1 : 0;
-  const double reach_px = frames.camera.detail_px * window_radius_px_ * (1 << halvings);
+  const double reach_px = frames.camera.window_scale * window_radius_px_ * (1 << halvings);
   std::optional<Eigen::Isometry3d> prediction;
   if (start.is_prediction) prediction = start.T_keyframe_cur;
   Start next = start;

@@ -32,8 +32,9 @@ bool RigEstimate::setCamera(const StereoCamera& camera) {
   return false;
 }
 
-void RigEstimate::setLevel(int level, double detail_px) {
-  detail_px_ = detail_px;
+void RigEstimate::setLevel(int level, double detail_px, double window_scale) {
+  camera_.detail_px = detail_px;
+  camera_.window_scale = window_scale;
   if (level == level_) return;
   const double factor = std::ldexp(1.0, level_ - level);
   level_ = level;
@@ -49,7 +50,6 @@ void RigEstimate::resetBias() {
 StereoCamera RigEstimate::correctedCamera() const {
   StereoCamera corrected = camera_.halved(level_);
   corrected.cx_right += bias().applied_px;
-  corrected.detail_px = detail_px_;
   return corrected;
 }
 

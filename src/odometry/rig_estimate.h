@@ -31,11 +31,11 @@ class RigEstimate {
   /// began with. Returns whether they are kept.
   bool setCamera(const StereoCamera& camera);
 
-  /// From now on pixels refer to images halved `level` times (-1: doubled), whose details have the
-  /// side `detail_px`. The estimates are kept.
-  void setLevel(int level, double detail_px);
+  /// From now on, pixels refer to images halved `level` times (-1: doubled), with the given
+  /// detail_px and window_scale of StereoCamera. The estimates are kept.
+  void setLevel(int level, double detail_px, double window_scale);
 
-  /// The camera as it was passed.
+  /// The camera of whole images.
   const StereoCamera& camera() const { return camera_; }
   /// The camera of the halved images, corrected by the disparity bias.
   StereoCamera correctedCamera() const;
@@ -80,7 +80,6 @@ class RigEstimate {
   StereoCamera camera_;
   StereoCamera first_camera_;  // of the estimates
   int level_ = 0;
-  double detail_px_ = 1.0;
   BiasMeter meter_;
   BiasFilter past_;                             // without the observations of the current keyframe
   BiasFilter filter_;                           // with the last of them

@@ -299,7 +299,7 @@ void VisualOdometry::Pipeline::useLevel(const StereoPair& pair, const FramePtr& 
   for (const FramePtr& frame : {current, last_, lost_}) {
     if (frame) frame->setLevel(level_);
   }
-  rig_.setLevel(level_, base_.detail_px());
+  rig_.setLevel(level_, base_.detail_px(), base_.window_scale());
 }
 
 void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& times) {
@@ -308,7 +308,7 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
   const StereoCamera camera = rig_.correctedCamera();
   {
     const StageTimer timer(times.corners_ms);
-    finder_->findCorners(camera, keyframe_);
+    finder_->findCorners(keyframe_);
   }
   const StageTimer timer(times.disparity_ms);
   rig_.startKeyframe(keyframe_);

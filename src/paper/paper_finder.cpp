@@ -40,7 +40,7 @@ float valueAt(const cv::Mat& disparities, const cv::Point2f& pixel) {
 
 }  // namespace
 
-void PaperFinder::findCorners(const StereoCamera& /*camera*/, Keyframe& keyframe) {
+void PaperFinder::findCorners(Keyframe& keyframe) {
   const cv::Mat& image = keyframe.frame->left.front();
   cv::goodFeaturesToTrack(image,
                           keyframe.corners,

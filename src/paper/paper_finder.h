@@ -12,7 +12,7 @@ class PaperFinder : public CorrespondenceFinder {
   using CorrespondenceFinder::CorrespondenceFinder;
 
   /// The `max_features` strongest corners. None is replaced if it has no disparity.
-  void findCorners(const StereoCamera& camera, Keyframe& keyframe) override;
+  void findCorners(Keyframe& keyframe) override;
   void findDepths(const StereoCamera& camera, Keyframe& keyframe) override;
   int find(const StereoCamera& camera,
            const Keyframe& keyframe,

@@ -87,8 +87,8 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
   table.add("max_features", finder.feature_detector.max_features, {50, 20000}).description =
       "number of features: a corner without a disparity is replaced by the next one";
   table.add("min_halvings", finder.feature_detector.min_halvings, {0, 2}).description =
-      "minimum number of times that images are halved, as long as the windows of max_features fit "
-      "side by side: less time, larger errors; not with method: paper";
+      "minimum number of times that images are halved, as long as max_features have room: less "
+      "time, larger errors; not with method: paper";
 
   StereoMatcherConfig& matcher = finder.stereo_matcher;
   table.beginSection("stereo_matcher");

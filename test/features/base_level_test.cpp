@@ -68,16 +68,17 @@ TEST(BaseLevelTest, HalvesSharpImagesOnRequestWhereWindowsFit) {
 TEST(BaseLevelTest, WithoutRoomWindowsGrowWithTheImage) {
   for (const double factor : {1.25, 1.5, 2.0}) {
     const cv::Mat image = enlarged(sharpImage({320, 256}), factor);
-    BaseLevel base({static_cast<int>(image.total()) / 180});  // of two windows
+    BaseLevel base({static_cast<int>(image.total()) / 270});  // a bit more than three windows
     observe(image, 1.0, base);
     EXPECT_EQ(base.level(), 0) << factor;
     EXPECT_NEAR(base.detail_px() / factor, 1.0, 0.25);  // that is a pixel of the window's radius
+    EXPECT_EQ(base.window_scale(), base.detail_px());
   }
 }
 
-TEST(BaseLevelTest, DoublesImagesWithoutRoomAndSoftOnesWhereWindowsDoNotFit) {
+TEST(BaseLevelTest, DoublesImagesWithoutRoomAndSoftOnesLater) {
   constexpr int kFeaturesWithRoom = 200;
-  constexpr int kFeaturesThatFit = 700;
+  constexpr int kFeaturesWithRoomIfSoft = 400;
   const cv::Mat sharp = sharpImage({320, 256});
   const cv::Mat soft = enlarged(sharpImage({160, 128}), 2.0);
   const auto levelOf = [](const cv::Mat& image, const FeatureDetectorConfig& config) {
@@ -86,10 +87,20 @@ TEST(BaseLevelTest, DoublesImagesWithoutRoomAndSoftOnesWhereWindowsDoNotFit) {
     return base.level();
   };
   EXPECT_EQ(levelOf(sharp, {kFeaturesWithRoom}), 0);
-  EXPECT_EQ(levelOf(sharp, {kFeaturesThatFit}), -1);
-  EXPECT_EQ(levelOf(soft, {kFeaturesThatFit}), 0);
+  EXPECT_EQ(levelOf(sharp, {kFeaturesWithRoomIfSoft}), -1);
+  EXPECT_EQ(levelOf(soft, {kFeaturesWithRoomIfSoft}), 0);
   EXPECT_EQ(levelOf(soft, {kManyFeatures}), -1);
-  EXPECT_EQ(levelOf(sharp, {kFeaturesThatFit, 1}), 0) << "halving was asked for";
+}
+
+TEST(BaseLevelTest, DoublingEnlargesDetailsButNotTheWindowsOfMany) {
+  const cv::Mat sharp = sharpImage({320, 256});
+  for (const int features : {400, kManyFeatures}) {
+    BaseLevel base({features});
+    observe(sharp, 1.0, base);
+    EXPECT_EQ(base.detail_px(), 2.0);
+    EXPECT_GE(base.window_scale(), 1.0);
+    EXPECT_LT(base.window_scale(), features == 400 ? 2.0 : 1.01);
+  }
 }
 
 TEST(BaseLevelTest, OneBlurredImageAmongSharpOnesChangesNothing) {

@@ -45,7 +45,7 @@ Keyframe makeKeyframe(CorrespondenceFinder& finder,
                       const StereoCamera& camera) {
   Keyframe keyframe;
   keyframe.frame = finder.makeFrame(pair);
-  finder.findCorners(camera, keyframe);
+  finder.findCorners(keyframe);
   finder.findDepths(camera, keyframe);
   return keyframe;
 }
@@ -154,7 +154,7 @@ TEST(CorrespondenceFinderTest, ReplacesCornersWithoutADepth) {
     CorrespondenceFinder finder(config);
     Keyframe keyframe;
     keyframe.frame = finder.makeFrame(pair);
-    finder.findCorners(scene().camera(), keyframe);
+    finder.findCorners(keyframe);
     const std::vector<cv::Point2f> all = keyframe.corners;
     finder.findDepths(scene().camera(), keyframe);
     const auto expected = firstWithDisparity(pair, all, static_cast<std::size_t>(wanted));
