@@ -25,14 +25,6 @@ const char* const kRectify =
     "the images are not rectified, or with another calibration: use the topics `image_rect`, or "
     "set `rectify` for raw images; otherwise recalibrate the pair";
 
-/// With half as many features again: a check may take longer than the odometry.
-OdometryConfig configOf(const RigCheckOptions& options) {
-  OdometryConfig config = options.parameters.odometry;
-  int& features = config.correspondence_finder.feature_detector.max_features;
-  features += features / 2;
-  return config;
-}
-
 /// All checks of the pairs of one recording.
 class PairChecks {
  public:
@@ -305,7 +297,7 @@ CheckedRig checkRig(Recording& recording, const RigCheckOptions& options) {
   RecordedPairs pairs(recording, options.parameters.node, options.rectify, options.calibration);
   InputCheck input;
   pairs.onMessage([&](const RecordedMessage& message) { input.observe(message); });
-  PairChecks checks(configOf(options), options.gyroscope, pairs.rectifies());
+  PairChecks checks(options.parameters.odometry, options.gyroscope, pairs.rectifies());
   CheckedRig rig;
   RigReport& report = rig.report;
   report.title = "Rig check of " + recording.description();
