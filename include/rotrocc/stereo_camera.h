@@ -18,8 +18,8 @@ struct StereoCamera {
   /// Principal point of the right image [px]; differs from cx if the cameras converge.
   double cx_right = 0.0;
   double baseline_m = 0.0;    ///< distance from the left to the right camera, positive
-  double detail_px = 1.0;     ///< side of the smallest detail of its images: limits are multiples
-  double window_scale = 1.0;  ///< windows are multiples of it: detail_px, or less if they are many
+  double detail_px = 1.0;     ///< side of the smallest detail of its images: the unit of limits
+  double window_scale = 1.0;  ///< of windows: detail_px, or less if so large ones have no room
 
   /// Throws std::invalid_argument that names the first invalid value. Sizes, focal lengths and
   /// baseline must be positive, all values finite, and the disparity at infinity less than the
