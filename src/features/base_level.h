@@ -11,7 +11,7 @@ namespace rotrocc {
 
 /// Chooses the level of the pyramids that is the image of the odometry: pixels that show no more
 /// detail than fewer would, as those of a soft lens, a demosaiced sensor or an enlarged image, cost
-/// time, and make windows and limits in pixels too small. Where a sharp image has no room for the
+/// time, and make windows and limits in pixels too small. Where an image has no room for the
 /// features, windows in its pixels are too large: it is doubled, as by Lowe, "Distinctive Image
 /// Features from Scale-Invariant Keypoints" (2004).
 ///
