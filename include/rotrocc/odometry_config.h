@@ -11,8 +11,9 @@ namespace rotrocc {
 
 /// Shi-Tomasi corner detection.
 struct FeatureDetectorConfig {
-  int max_features = 400;  ///< number of tracked features: corners without a disparity are replaced
-  int min_halvings = 0;    ///< of the images, as far as they leave room for the features
+  int max_features = 400;    ///< corners without a disparity are replaced
+  int wanted_inliers = 240;  ///< fewer features are tracked if so many agree on the motion
+  int min_halvings = 0;      ///< of the images, as far as they leave room for the features
 };
 
 /// Sparse matching along the row, by normalized correlation.

@@ -30,6 +30,9 @@ constexpr double kRoom = 3.9;
 constexpr double kLeastRoom = 3.0;
 constexpr double kLeastRoomIfSoft = 2.0;
 
+/// Weight of the last pair in the share of features that survive. A smaller share counts at once.
+constexpr double kMoreSurvive = 0.2;
+
 /// Pixels of an image that are compared, about.
 constexpr double kSample = 1000.0;
 
@@ -69,21 +72,24 @@ std::optional<double> sharpnessOf(const cv::Mat& image, const cv::Mat* smaller) 
 
 void BaseLevel::observe(const cv::Mat& image, const ImagePyramid& pyramid) {
   const int levels = std::min<int>(kMaxLevel + 1, static_cast<int>(pyramid.size()) - 2);
-  const auto windowsIn = [&](const cv::Mat& level) {
-    return static_cast<double>(level.total()) / kWindow_px2 / config_.max_features;
+  const auto windowsFor = [&](int features, const cv::Mat& level) {
+    return static_cast<double>(level.total()) / kWindow_px2 / features;
   };
   for (level_ = 0; level_ < levels; ++level_) {
     const bool is_last = level_ + 1 == levels;
-    const bool has_room = !is_last && windowsIn(pyramid[level_ + 1]) >= kRoom;
-    if (level_ < config_.min_halvings && has_room) continue;
+    const auto hasRoomFor = [&](int features) {
+      return !is_last && windowsFor(features, pyramid[level_ + 1]) >= kRoom;
+    };
+    if (level_ < config_.min_halvings && hasRoomFor(wantedFeatures())) continue;
     observeLevel(level_ == 0 ? image : pyramid[level_], &pyramid[level_ + 1]);
-    if (is_last || !(is_empty_[level_] || (is_soft_[level_] && has_room))) break;
+    const bool is_left = is_soft_[level_] && hasRoomFor(config_.max_features);
+    if (is_last || !(is_empty_[level_] || is_left)) break;
   }
   // Enlarging an image by a factor divides its sharpness by about the square of the factor.
   const auto level = static_cast<std::size_t>(level_);
   const double side_px = is_soft_[level] ? std::exp(-0.5 * log_sharpness_[level]) : 1.0;
   detail_px_ = window_scale_ = std::max(1.0, side_px);
-  const double windows = windowsIn(image);
+  const double windows = windowsFor(config_.max_features, image);
   if (level_ > 0 || windows >= (is_soft_[0] ? kLeastRoomIfSoft : kLeastRoom)) return;
   level_ = -1;
   detail_px_ *= 2.0;
@@ -101,6 +107,16 @@ void BaseLevel::observeLevel(const cv::Mat& image, const cv::Mat* smaller) {
   };
   compare(kSoft, is_soft_[level_]);
   compare(kEmpty, is_empty_[level_]);
+}
+
+void BaseLevel::observeSurvivors(double share) {
+  const double more = survivors_ == 0.0 ? share : survivors_ + kMoreSurvive * (share - survivors_);
+  survivors_ = std::min(share, more);
+}
+
+int BaseLevel::wantedFeatures() const {
+  const double least = static_cast<double>(config_.wanted_inliers) / config_.max_features;
+  return cvRound(config_.wanted_inliers / std::max(survivors_, least));
 }
 
 }  // namespace rotrocc

@@ -13,7 +13,7 @@ namespace rotrocc {
 /// detail than fewer would, as those of a soft lens, a demosaiced sensor or an enlarged image, cost
 /// time, and make windows and limits in pixels too small. Where an image has no room for the
 /// features, windows in its pixels are too large: it is doubled, as by Lowe, "Distinctive Image
-/// Features from Scale-Invariant Keypoints" (2004).
+/// Features from Scale-Invariant Keypoints" (2004). Chooses the number of features, too.
 ///
 /// The sharpness of a level is the mean square of the detail that halving it loses, relative to the
 /// loss of the next halving; both exclude noise. It is 1 for a scene alike at all scales, and does
@@ -32,6 +32,12 @@ class BaseLevel {
 
   /// Adds an image, CV_8UC1, with its smaller copies. Level 0 of the pyramid is not used.
   void observe(const cv::Mat& image, const ImagePyramid& pyramid);
+
+  /// Adds the share of a keyframe's features that agree on the motion; 0 if there is none.
+  void observeSurvivors(double share);
+
+  /// As many features as wanted_inliers need, max_features if no survivors are known.
+  int wantedFeatures() const;
 
   /// Forgets the images, as of another camera.
   void reset() { *this = BaseLevel(config_); }
@@ -53,6 +59,7 @@ class BaseLevel {
   int level_ = 0;
   double detail_px_ = 1.0;
   double window_scale_ = 1.0;
+  double survivors_ = 0.0;
   std::array<int, kMaxLevel + 1> images_ = {};
   std::array<double, kMaxLevel + 1> log_sharpness_ = {};  // averages over the images
   std::array<bool, kMaxLevel + 1> is_soft_ = {}, is_empty_ = {};

@@ -69,14 +69,13 @@ void CorrespondenceFinder::findCorners(Keyframe& keyframe) {
   detector_.detect(frame.left.front(), keyframe.corners, kCandidates, frame.left_mask);
 }
 
-void CorrespondenceFinder::findDepths(const StereoCamera& camera, Keyframe& keyframe) {
+void CorrespondenceFinder::findDepths(const StereoCamera& camera, int wanted, Keyframe& keyframe) {
   keyframe.left_px.clear();
   keyframe.right_px.clear();
   keyframe.points.clear();
   const RectifiedImages images = imagesOf(*keyframe.frame, camera, keyframe);
-  const auto wanted = static_cast<std::size_t>(config_.feature_detector.max_features);
   std::size_t tried = 0;
-  while (tried < keyframe.corners.size() && keyframe.points.size() < wanted) {
+  while (tried < keyframe.corners.size() && static_cast<int>(keyframe.points.size()) < wanted) {
     addPoint(images, keyframe.corners[tried++], keyframe);
   }
   keyframe.corners.resize(tried);

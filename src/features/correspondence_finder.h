@@ -38,9 +38,9 @@ class CorrespondenceFinder {
 
   /// Finds the corners of the keyframe's left image, more than are wanted: some have no match.
   virtual void findCorners(Keyframe& keyframe);
-  /// Matches the corners in the keyframe's right image, in their order, until max_features have a
-  /// depth, and triangulates these. Removes the corners that were not needed.
-  virtual void findDepths(const StereoCamera& camera, Keyframe& keyframe);
+  /// Matches the corners in the keyframe's right image, in their order, until as many as wanted
+  /// have a depth, and triangulates these. Removes the corners that were not needed.
+  virtual void findDepths(const StereoCamera& camera, int wanted, Keyframe& keyframe);
 
   /// Tracks the keyframe's points, starting at the positions given by the motion. Stores in
   /// `features` those that pass the circular consistency check: their current left and right

@@ -224,6 +224,7 @@ void VisualOdometry::Pipeline::forget() {
   keyframe_.frame.reset();
   velocity_.reset();
   period_s_ = 0.0;
+  base_.observeSurvivors(0.0);
 }
 
 void VisualOdometry::Pipeline::configure(const Config& config) {
@@ -283,6 +284,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   if (found_.isAccepted()) return;
   // Either this pair or the last one may be at fault. The next pair is compared with both.
   lost_ = current;
+  base_.observeSurvivors(0.0);
   rig_.searchRowsAgain();
   throw Lost(*found_.why_lost);
 }
@@ -312,7 +314,7 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
   }
   const StageTimer timer(times.disparity_ms);
   rig_.startKeyframe(keyframe_);
-  finder_->findDepths(camera, keyframe_);
+  finder_->findDepths(camera, base_.wantedFeatures(), keyframe_);
 }
 
 VisualOdometry::Pipeline::Expectation VisualOdometry::Pipeline::expectation(
@@ -405,6 +407,8 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
 
 void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& result) {
   const MotionEstimate& estimate = found_.estimate;
+  const StageCounts& counts = found_.counts;
+  base_.observeSurvivors(static_cast<double>(counts.rotation_inliers) / counts.with_depth);
   result.contrast_gain = found_.contrast_gain;
   result.flow_noise_px = estimate.flow_noise_px;
   result.keyframe_stamp_ns = keyframe_.frame->stamp_ns;

@@ -50,7 +50,7 @@ void PaperFinder::findCorners(Keyframe& keyframe) {
                           keyframe.frame->left_mask.usable(image.size()));
 }
 
-void PaperFinder::findDepths(const StereoCamera& camera, Keyframe& keyframe) {
+void PaperFinder::findDepths(const StereoCamera& camera, int /*wanted*/, Keyframe& keyframe) {
   keyframe.left_px.clear();
   keyframe.right_px.clear();
   keyframe.points.clear();

@@ -13,7 +13,7 @@ class PaperFinder : public CorrespondenceFinder {
 
   /// The `max_features` strongest corners. None is replaced if it has no disparity.
   void findCorners(Keyframe& keyframe) override;
-  void findDepths(const StereoCamera& camera, Keyframe& keyframe) override;
+  void findDepths(const StereoCamera& camera, int wanted, Keyframe& keyframe) override;
   int find(const StereoCamera& camera,
            const Keyframe& keyframe,
            const StereoFrame& current,

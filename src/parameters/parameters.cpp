@@ -85,9 +85,12 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
   CorrespondenceFinderConfig& finder = c.correspondence_finder;
   table.beginSection("feature_detector");
   table.add("max_features", finder.feature_detector.max_features, {50, 20000}).description =
-      "number of features: a corner without a disparity is replaced by the next one";
+      "maximum number of features: a corner without a disparity is replaced by the next one";
+  table.add("wanted_inliers", finder.feature_detector.wanted_inliers, {50, 20000}).description =
+      "features that should agree on the motion: the more of them survive from pair to pair, the "
+      "fewer are tracked";
   table.add("min_halvings", finder.feature_detector.min_halvings, {0, 2}).description =
-      "minimum number of times that images are halved, as long as max_features have room: less "
+      "minimum number of times that images are halved, as long as the features have room: less "
       "time, larger errors; not with method: paper";
 
   StereoMatcherConfig& matcher = finder.stereo_matcher;

@@ -59,10 +59,40 @@ TEST(BaseLevelTest, IsThatOfTheSmallestImageWithAllDetails) {
 
 TEST(BaseLevelTest, HalvesSharpImagesOnRequestWhereWindowsFit) {
   for (const int width : {640, 160}) {
-    BaseLevel base({kFewFeatures, 1});
+    BaseLevel base({kFewFeatures, kFewFeatures, 1});
     observe(sharpImage({width, width}), 1.0, base);
     EXPECT_EQ(base.level(), width == 640 ? 1 : 0);
   }
+}
+
+TEST(BaseLevelTest, HalvesSharpImagesOnRequestOnlyWhileFewFeaturesAreWanted) {
+  const cv::Mat image = sharpImage({640, 512});
+  BaseLevel base({1000, kFewFeatures, 1});
+  for (const double share : {0.0, 1.0, 0.0}) {
+    base.observeSurvivors(share);
+    observe(image, 1.0, base);
+    EXPECT_EQ(base.level(), share == 1.0 ? 1 : 0);
+  }
+}
+
+TEST(BaseLevelTest, WantsAsManyFeaturesAsItsInliersNeed) {
+  BaseLevel base({400, 200, 0});
+  EXPECT_EQ(base.wantedFeatures(), 400) << "nothing is known";
+  base.observeSurvivors(0.8);
+  EXPECT_EQ(base.wantedFeatures(), 250);
+  base.observeSurvivors(0.6);
+  EXPECT_EQ(base.wantedFeatures(), 333) << "at once";
+  base.observeSurvivors(0.8);
+  EXPECT_LT(base.wantedFeatures(), 333);
+  EXPECT_GT(base.wantedFeatures(), 300) << "one pair shows little";
+  for (int i = 0; i < 40; ++i) base.observeSurvivors(0.8);
+  EXPECT_EQ(base.wantedFeatures(), 250);
+  base.observeSurvivors(0.1);
+  EXPECT_EQ(base.wantedFeatures(), 400) << "the maximum";
+  base.observeSurvivors(0.0);
+  base.observeSurvivors(0.8);
+  EXPECT_EQ(base.wantedFeatures(), 250) << "of the first motion";
+  EXPECT_EQ(BaseLevel({100, 200, 0}).wantedFeatures(), 100);
 }
 
 TEST(BaseLevelTest, WithoutRoomWindowsGrowWithTheImage) {

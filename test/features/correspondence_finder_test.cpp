@@ -46,7 +46,7 @@ Keyframe makeKeyframe(CorrespondenceFinder& finder,
   Keyframe keyframe;
   keyframe.frame = finder.makeFrame(pair);
   finder.findCorners(keyframe);
-  finder.findDepths(camera, keyframe);
+  finder.findDepths(camera, FeatureDetectorConfig().max_features, keyframe);
   return keyframe;
 }
 
@@ -156,7 +156,7 @@ TEST(CorrespondenceFinderTest, ReplacesCornersWithoutADepth) {
     keyframe.frame = finder.makeFrame(pair);
     finder.findCorners(keyframe);
     const std::vector<cv::Point2f> all = keyframe.corners;
-    finder.findDepths(scene().camera(), keyframe);
+    finder.findDepths(scene().camera(), wanted, keyframe);
     const auto expected = firstWithDisparity(pair, all, static_cast<std::size_t>(wanted));
     EXPECT_EQ(keyframe.left_px, expected) << "in the order of the corners";
     EXPECT_EQ(keyframe.points.size(), expected.size());

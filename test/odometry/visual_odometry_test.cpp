@@ -346,13 +346,13 @@ TEST(VisualOdometryTest, GoesOnWithOtherParameters) {
   VisualOdometry odometry = started(6, wronglyCalibrated());
   const OdometryResult before = odometry.process(bend(6), wronglyCalibrated());
   VisualOdometry::Config config;
-  config.correspondence_finder.feature_detector.max_features = 300;
+  config.correspondence_finder.feature_detector.max_features = 200;
   config.correspondence_finder.feature_tracker.window_radius_px = 5;
   odometry.configure(config);
   const OdometryResult after = odometry.process(bend(7), wronglyCalibrated());
   expectMotion(after, bendStep());
-  EXPECT_GT(before.counts.with_depth, 300);
-  EXPECT_LE(after.counts.with_depth, 300);
+  EXPECT_GT(before.counts.with_depth, 200);
+  EXPECT_LE(after.counts.with_depth, 200);
   EXPECT_EQ(after.keyframe_stamp_ns, before.stamp_ns) << "not that with the corners of before";
   EXPECT_NEAR(after.disparity_bias.applied_px, before.disparity_bias.applied_px, 0.05);
 }
