@@ -23,13 +23,8 @@ constexpr double kRetryAgreement_px = 2.0;
 /// A smaller share of the features is not what most agree on.
 constexpr double kMajority = 0.5;
 
-/// The motion near the prediction wins with more than this fraction of the other's inliers, and of
-/// all features: fewer are no motion.
+/// The motion near the prediction wins with more than this fraction of the other's inliers.
 constexpr double kLikelierShare = 0.5;
-constexpr double kLeastShare = 0.2;
-
-/// Two sets of inliers that differ by less are of the same motion.
-constexpr double kMinCountRatio = 1.1;
 
 /// Grid of cells within which the errors of neighboring features may be correlated.
 constexpr int kScatterColumns = 8;
@@ -119,9 +114,7 @@ const MotionEstimate& MotionEstimator::estimate(
   if (!prediction) return found_;
   retryNear(*prediction, measured);
   const int near = retry_.valid ? count(retry_.rotation_inliers) : 0;
-  const bool is_likelier = near > kLeastShare * static_cast<double>(features.size()) &&
-                           near > kLikelierShare * count(found_.rotation_inliers);
-  return is_likelier ? retry_ : found_;
+  return near > kLikelierShare * count(found_.rotation_inliers) ? retry_ : found_;
 }
 
 /// The full set is a mixture of motions: its least squares fit may end at none of them, or at one
@@ -131,8 +124,8 @@ void MotionEstimator::takeConsensus(const Measurements& measured) {
   if (!consensus) return;
   retryNear(*consensus, measured);
   if (!retry_.valid) return;
-  const double clearly_more = kMinCountRatio * count(found_.rotation_inliers);
-  if (!found_.valid || count(retry_.rotation_inliers) > clearly_more) std::swap(found_, retry_);
+  const int before = count(found_.rotation_inliers);
+  if (!found_.valid || count(retry_.rotation_inliers) > before) std::swap(found_, retry_);
 }
 
 /// Estimates from the features close to a motion.

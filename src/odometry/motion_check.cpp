@@ -20,8 +20,6 @@ namespace {
 constexpr double kSigmas = 3.0;
 /// A smaller share of inliers of the feature set is no motion of the camera.
 constexpr double kMinShare = 0.15;
-/// A keyframe serves another pair if it has this many times kMinInliers.
-constexpr int kReserve = 2;
 /// The camera rests while the median flow is below this many times its noise.
 constexpr double kRest = 6.0;
 /// Share of the median depth. A shorter step changes the image little: its uncertainty is compared
@@ -224,10 +222,6 @@ double MotionCheck::inflation(const MotionEstimate& accepted, double common_shar
   const int majority = 2 * count(accepted.rotation_inliers) - features;
   const double contradicted = static_cast<double>(features) / std::max(majority, kMinInliers);
   return contradicted * (1.0 + common_share * inliers(accepted));
-}
-
-bool MotionCheck::hasReserve(const MotionEstimate& accepted) {
-  return inliers(accepted) >= kReserve * kMinInliers;
 }
 
 bool MotionCheck::isAtRest(const Hypothesis& accepted) {

@@ -68,10 +68,6 @@ class MotionCheck {
   /// better start.
   std::optional<std::string> whyFewAgree(const Hypothesis& accepted);
 
-  /// Whether enough inliers are left for another motion against the same keyframe, which will have
-  /// fewer.
-  static bool hasReserve(const MotionEstimate& accepted);
-
   /// Whether the camera rests at an accepted motion: the median inlier has moved by less than 6
   /// times the noise of the flow. The noise of a motion is then a sixth of it, or more.
   static bool isAtRest(const Hypothesis& accepted);

@@ -62,8 +62,9 @@ bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& fo
         frames.finder.medianShift(frames.camera, frames.keyframe, next.T_keyframe_cur, T_found);
     // Features that were searched where they are do not agree better after another search.
     const bool was_predicted = step == 0 && start.is_prediction;
-    if (shift_px < reach_px)
-      return was_predicted ? hasMinimumSupport(found) : hasEnoughSupport(found);
+    if (shift_px < reach_px) {
+      return hasMinimumSupport(found) && (was_predicted || !check_.whyFewAgree(found));
+    }
     next.T_keyframe_cur = T_found;
   }
   return false;
@@ -73,10 +74,6 @@ bool MotionSearch::hasMinimumSupport(const Hypothesis& found) {
   return found.isAccepted() &&
          found.counts.rotation_inliers >= kConvincingShare * found.counts.with_depth &&
          !check_.whyNotAtRest(found);
-}
-
-bool MotionSearch::hasEnoughSupport(const Hypothesis& found) {
-  return hasMinimumSupport(found) && !check_.whyFewAgree(found);
 }
 
 bool MotionSearch::isBetter(const Hypothesis& a, const Hypothesis& b) {

@@ -60,9 +60,6 @@ class MotionSearch {
   /// Whether a quarter of the keyframe's features agree on a motion; more at rest.
   bool hasMinimumSupport(const Hypothesis& found);
 
-  /// Whether as many of the tracked ones agree, too, as keep it from being degraded.
-  bool hasEnoughSupport(const Hypothesis& found);
-
   /// Whether to prefer hypothesis `a`.
   bool isBetter(const Hypothesis& a, const Hypothesis& b);
   void tryMotion(const Frames& frames,

@@ -110,8 +110,7 @@ class VisualOdometry::Pipeline {
     std::optional<Eigen::Isometry3d> T_last_cur;  ///< as predicted
   };
   Expectation expectation(const StereoFrame& current, const OtherSensors& others) const;
-  std::optional<Eigen::Isometry3d> predict(
-      double dt_s, const std::optional<Eigen::Matrix3d>& measured_rotation = std::nullopt) const;
+  std::optional<Eigen::Isometry3d> predict(double dt_s) const;
   void findMotion(const FramePtr& current, const OtherSensors& others, OdometryResult& result);
   bool findMotionFrom(const FramePtr& earlier,
                       const StereoFrame& current,
@@ -321,24 +320,19 @@ VisualOdometry::Pipeline::Expectation VisualOdometry::Pipeline::expectation(
     const StereoFrame& current, const OtherSensors& others) const {
   Expectation expected = {secondsBetween(*last_, current), std::nullopt, others.T_last_cur};
   expected.R_last_cur = measuredRotation(*last_, current, others.rotation);
-  if (!expected.T_last_cur) {
-    expected.T_last_cur = predict(expected.dt_s, expected.R_last_cur);
-  }
+  if (!expected.T_last_cur) expected.T_last_cur = predict(expected.dt_s);
   if (expected.T_last_cur && expected.R_last_cur) {
     expected.T_last_cur->linear() = *expected.R_last_cur;
   }
   return expected;
 }
 
-/// The motion by the constant velocity of the last one, unless that is too long ago. A measured
-/// rotation R_last_cur replaces the predicted one. The velocity turns with the camera, as that of a
-/// vehicle does: then it keeps its direction in the camera's axes.
-std::optional<Eigen::Isometry3d> VisualOdometry::Pipeline::predict(
-    double dt_s, const std::optional<Eigen::Matrix3d>& measured_rotation) const {
+/// The motion by the constant velocity of the last one, unless that is too long ago. The velocity
+/// turns with the camera, as that of a vehicle does: then it keeps its direction in the camera's
+/// axes.
+std::optional<Eigen::Isometry3d> VisualOdometry::Pipeline::predict(double dt_s) const {
   if (!velocity_ || dt_s > kPredictable * period_s_) return std::nullopt;
-  Vector6d motion = *velocity_ * dt_s;
-  if (measured_rotation) motion.tail<3>() = logRotation(*measured_rotation);
-  return expMotion(motion);
+  return expMotion(*velocity_ * dt_s);
 }
 
 /// Measures the motion against the keyframe. If that fails, against the last frame, then against
@@ -440,8 +434,8 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   // Noise accumulates with each new keyframe, so one is kept while the camera rests: there is no
   // drift at standstill. In motion each frame is the keyframe of the next one, because the errors
   // of a feature grow with the way that it is tracked.
-  const bool serves = result.state == State::kOk && MotionCheck::hasReserve(estimate) &&
-                      !config_.isPaper() && MotionCheck::isAtRest(found_);
+  const bool serves =
+      result.state == State::kOk && !config_.isPaper() && MotionCheck::isAtRest(found_);
   if (!serves) keyframe_.frame.reset();
 }
 

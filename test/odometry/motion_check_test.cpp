@@ -214,13 +214,6 @@ TEST(MotionCheckTest, FeaturesThatContradictMakeTheMotionUncertain) {
       << "25 are the least majority";
 }
 
-TEST(MotionCheckTest, WantsAReserveOfInliersForTheNextPair) {
-  auto estimate = goodEstimate();
-  EXPECT_TRUE(MotionCheck::hasReserve(estimate));
-  estimate.translation_inliers = estimate.rotation_inliers = set(49, 300);
-  EXPECT_FALSE(MotionCheck::hasReserve(estimate));
-}
-
 /// Whether the camera rests after a motion, if the flow has this noise.
 bool isAtRest(const Eigen::Isometry3d& T_keyframe_cur, double noise_px = 0.2, int features = 400) {
   std::mt19937 generator(1);
