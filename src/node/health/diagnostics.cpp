@@ -85,14 +85,15 @@ void describeTiming(const HealthReport& report, StatusWrapper& status) {
   const double period_ms = input_hz > 0.0 ? 1e3 / input_hz : 0.0;
   // Latencies vary with the load of the machine: warn only if most pairs are late.
   if (report.answers && period_ms > 0.0 && report.latency_p50_ms > period_ms) {
-    status.summaryf(DiagnosticStatus::WARN,
-                    "too slow: half of the results take more than %.1f ms, but pairs arrive every "
-                    "%.1f ms; %s",
-                    report.latency_p50_ms,
-                    period_ms,
-                    report.latency_without_tf_p50_ms > period_ms
-                        ? "reduce feature_detector/max_features, or the rate or size of the images"
-                        : "they wait for tf: publish it earlier or more often");
+    status.summaryf(
+        DiagnosticStatus::WARN,
+        "too slow: half of the results take more than %.1f ms, but pairs arrive every "
+        "%.1f ms; %s",
+        report.latency_p50_ms,
+        period_ms,
+        report.latency_without_tf_p50_ms > period_ms
+            ? "reduce feature_detector/wanted_inliers, or the rate or size of the images"
+            : "they wait for tf: publish it earlier or more often");
   } else {
     status.summaryf(DiagnosticStatus::OK, "%.1f results per second", report.answer_rate_hz);
   }
