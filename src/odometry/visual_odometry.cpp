@@ -283,6 +283,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   if (found_.isAccepted()) return;
   // Either this pair or the last one may be at fault. The next pair is compared with both.
   lost_ = current;
+  keyframe_.frame.reset();  // the next one has more features
   base_.observeSurvivors(0.0);
   rig_.searchRowsAgain();
   throw Lost(*found_.why_lost);
@@ -359,8 +360,6 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
     setPrevious(*lost_, result);
     last_ = std::move(lost_);
     velocity_.reset();
-  } else {
-    keyframe_.frame.reset();  // the next pair is compared with the last frame again
   }
 }
 
