@@ -11,7 +11,7 @@ namespace rotrocc {
 
 /// Shi-Tomasi corner detection.
 struct FeatureDetectorConfig {
-  int max_features = 400;    ///< corners without a disparity are replaced
+  int max_features = 400;    ///< tracked at most: corners without a disparity are replaced
   int wanted_inliers = 240;  ///< fewer features are tracked if so many agree on the motion
   int min_halvings = 0;      ///< of the images, as far as they leave room for the features
 };

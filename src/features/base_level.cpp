@@ -22,7 +22,7 @@ constexpr double kHysteresis = 1.2;
 /// The window of the tracker.
 constexpr double kWindow_px2 = 9.0 * 9.0;
 /// Windows that a feature needs in a halved image. With 3.6, KITTI at twice its size has a tenth
-/// more error at each fourth pair; 640 x 480 halved has 3.95 for each of 240 features.
+/// more error at each fourth pair.
 constexpr double kRoom = 3.9;
 /// Images with fewer are doubled, which halves the error of KITTI's images at 320 px and each third
 /// pair. At 160 px there is no motion without. A window of a doubled image has half as many

@@ -329,8 +329,7 @@ VisualOdometry::Pipeline::Expectation VisualOdometry::Pipeline::expectation(
 }
 
 /// The motion by the constant velocity of the last one, unless that is too long ago. The velocity
-/// turns with the camera, as that of a vehicle does: then it keeps its direction in the camera's
-/// axes.
+/// turns with the camera, as with a vehicle: it keeps its direction in the camera's axes.
 std::optional<Eigen::Isometry3d> VisualOdometry::Pipeline::predict(double dt_s) const {
   if (!velocity_ || dt_s > kPredictable * period_s_) return std::nullopt;
   return expMotion(*velocity_ * dt_s);

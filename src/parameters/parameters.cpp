@@ -87,8 +87,8 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
   table.add("max_features", finder.feature_detector.max_features, {50, 20000}).description =
       "maximum number of features: a corner without a disparity is replaced by the next one";
   table.add("wanted_inliers", finder.feature_detector.wanted_inliers, {50, 20000}).description =
-      "features that should agree on the motion: the more of them survive from pair to pair, the "
-      "fewer are tracked";
+      "number of features that should agree on the motion: the larger the fraction that agrees, "
+      "the fewer are tracked; not with method: paper";
   table.add("min_halvings", finder.feature_detector.min_halvings, {0, 2}).description =
       "minimum number of times that images are halved, as long as the features have room: less "
       "time, larger errors; not with method: paper";

@@ -357,6 +357,16 @@ TEST(VisualOdometryTest, GoesOnWithOtherParameters) {
   EXPECT_NEAR(after.disparity_bias.applied_px, before.disparity_bias.applied_px, 0.05);
 }
 
+TEST(VisualOdometryTest, TracksFewerFeaturesWhileTheyAgree) {
+  VisualOdometry odometry = started(4);
+  const int few = odometry.process(bend(4), camera()).counts.with_depth;
+  expectLost(odometry.process(black(bend(4).stamp_ns + 1), camera()), "features");
+  const OdometryResult after_loss = odometry.process(bend(5), camera());
+  EXPECT_TRUE(after_loss.hasMotion()) << after_loss.reason;
+  EXPECT_LT(few, after_loss.counts.with_depth);
+  EXPECT_LT(odometry.process(bend(6), camera()).counts.with_depth, after_loss.counts.with_depth);
+}
+
 StereoPair resized(StereoPair pair, double factor) {
   for (cv::Mat* image : {&pair.left, &pair.right}) {
     cv::resize(*image, *image, {}, factor, factor, factor < 1.0 ? cv::INTER_AREA : cv::INTER_CUBIC);
